@@ -1,0 +1,113 @@
+// Rays, as the caller gives them and as the structures use them, and the conservative ray-box test.
+#pragma once
+
+#include "base/box.h"
+#include "base/vec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raywise {
+
+struct Ray {
+    Vec3 origin{0.0};
+    double tmin = 0.0;
+    Vec3 direction{0.0};
+    double tmax = std::numeric_limits<double>::infinity();
+
+    bool has_nan() const {
+        const auto any_nan = [](const Vec3& v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); };
+        return any_nan(origin) || any_nan(direction) || std::isnan(tmin) || std::isnan(tmax);
+    }
+};
+
+// A ray made ready for traversal.
+//
+// The direction is scaled by a power of two so that its largest component lies in [1, 2); t inside the library is
+// counted in that unit ("scaled t"), and to_caller() and from_caller() convert without rounding. Scaling makes one error
+// bound serve all rays and keeps products of tiny or huge directions from under- or overflowing.
+//
+// `margin` is the slack every culling test must leave, in scaled t. A hit's t is accurate to margin / 8 (see
+// geometry/triangle_test.h) and the slab distances of boxes the ray meets within the scene are too, so a test that errs
+// by `margin` towards visiting can never lose a hit that another structure finds.
+class PreparedRay {
+public:
+    // bounds: of the whole scene. The ray has to be valid (see is_traceable).
+    PreparedRay(const Ray& ray, const Box& bounds) : origin(ray.origin) {
+        const Vec3 magnitude = glm::abs(ray.direction);
+        major_axis = magnitude.x >= magnitude.y ? (magnitude.x >= magnitude.z ? 0 : 2) : (magnitude.y >= magnitude.z ? 1 : 2);
+        scale_exponent_ = std::ilogb(magnitude[major_axis]);
+        for (int axis = 0; axis < 3; ++axis) {
+            direction[axis] = std::ldexp(ray.direction[axis], -scale_exponent_);
+            inverse[axis] = 1.0 / direction[axis];
+        }
+        x_axis = major_axis == 2 ? 0 : major_axis + 1;
+        y_axis = x_axis == 2 ? 0 : x_axis + 1;
+        shear_x = direction[x_axis] * inverse[major_axis];
+        shear_y = direction[y_axis] * inverse[major_axis];
+        tmin = from_caller(ray.tmin);
+        tmax = from_caller(ray.tmax);
+        const Vec3 reach = glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin));
+        margin = std::ldexp(std::max(max_component(reach), std::numeric_limits<double>::min()), -34);
+    }
+
+    // A ray that can hit something at all: no NaN, finite origin and direction, direction not zero, interval not inverted.
+    static bool is_traceable(const Ray& ray) {
+        return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0) && ray.tmin <= ray.tmax;
+    }
+
+    double to_caller(double scaled_t) const { return std::ldexp(scaled_t, -scale_exponent_); }
+    double from_caller(double t) const { return std::ldexp(t, scale_exponent_); }
+
+    Vec3 origin;
+    Vec3 direction; // largest component in [1, 2)
+    Vec3 inverse;   // 1 / direction; infinite where the direction is zero
+    double tmin;    // scaled
+    double tmax;    // scaled
+    double margin;  // scaled
+    int major_axis; // of the largest direction component
+    int x_axis;     // the other two, so that (x, y, major) is a cyclic order
+    int y_axis;
+    double shear_x; // direction[x_axis] / direction[major_axis]
+    double shear_y;
+
+private:
+    int scale_exponent_;
+};
+
+// The part of the ray inside a box, in scaled t.
+struct Interval {
+    double near;
+    double far;
+};
+
+// Slab test (Kay and Kajiya 1986). Where the direction is zero the products are infinite or NaN; the comparisons are
+// written so that a NaN (the origin lies on the slab's plane) leaves the interval as it is.
+template <class BoxType>
+inline Interval box_interval(const PreparedRay& ray, const BoxType& box) {
+    double near = -std::numeric_limits<double>::infinity();
+    double far = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (static_cast<double>(at(box.lower, axis)) - at(ray.origin, axis)) * at(ray.inverse, axis);
+        const double b = (static_cast<double>(at(box.upper, axis)) - at(ray.origin, axis)) * at(ray.inverse, axis);
+        const bool backwards = std::signbit(at(ray.inverse, axis));
+        const double entry = backwards ? b : a;
+        const double exit = backwards ? a : b;
+        near = entry > near ? entry : near;
+        far = exit < far ? exit : far;
+    }
+    return {near, far};
+}
+
+// Whether a box may hold a hit at scaled t in [ray.tmin, limit]; errs towards yes by the ray's margin. The entry distance
+// goes to `near`.
+template <class BoxType>
+inline bool may_hit_box(const PreparedRay& ray, const BoxType& box, double limit, double& near) {
+    const Interval interval = box_interval(ray, box);
+    near = interval.near;
+    return interval.near <= interval.far + ray.margin && interval.near <= limit + ray.margin &&
+           interval.far >= ray.tmin - ray.margin;
+}
+
+} // namespace raywise

@@ -1,0 +1,97 @@
+// All primitives of a scene under one numbering, and what a primitive answers: its box, its corners, and the ray test.
+#pragma once
+
+#include "base/box.h"
+#include "base/ray.h"
+#include "geometry/triangle_mesh.h"
+#include "geometry/triangle_test.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace raywise {
+
+// A hit inside the library. Primitives are numbered through all meshes in the order of adding, so the lowest number is
+// the lowest (geometry, primitive) id.
+struct PrimitiveHit {
+    double t = std::numeric_limits<double>::infinity(); // scaled, as PreparedRay counts it
+    double u = 0.0;
+    double v = 0.0;
+    std::uint32_t primitive = no_primitive;
+
+    static constexpr std::uint32_t no_primitive = 0xFFFFFFFFu;
+    bool is_hit() const { return primitive != no_primitive; }
+
+    // The order of answers: by t, then by number.
+    bool operator<(const PrimitiveHit& other) const {
+        return t < other.t || (t == other.t && primitive < other.primitive);
+    }
+};
+
+struct PrimitiveId {
+    std::uint32_t geometry;
+    std::uint32_t primitive;
+};
+
+class Primitives {
+public:
+    // The meshes are kept. Counts degenerate triangles and finds the bounds of those that can be hit. Throws
+    // Error(ERROR_TOO_MANY) when all meshes together exceed the ids.
+    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes);
+
+    std::uint32_t count() const { return count_; }                       // all ids
+    const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
+    const Box& bounds() const { return bounds_; }                        // of all hittable primitives
+    std::uint64_t degenerate_count() const { return degenerate_count_; } // without area
+    std::uint64_t invalid_count() const { return invalid_count_; }
+    std::uint64_t hittable_count() const { return hittable_count_; }
+
+    // Whether a primitive can be hit at all: valid, and with corners that are not all in one line. Structures need not
+    // contain the others (they may: the test never hits them).
+    bool is_hittable(std::uint32_t primitive) const { return unhittable_.empty() || !unhittable_[primitive]; }
+
+    // Needs a valid primitive.
+    Corners corners(std::uint32_t primitive) const {
+        if (meshes_.size() == 1) return meshes_.front()->corners(primitive);
+        const PrimitiveId id = locate(primitive);
+        return meshes_[id.geometry]->corners(id.primitive);
+    }
+    Box box(std::uint32_t primitive) const {
+        const Corners c = corners(primitive);
+        return {glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))};
+    }
+
+    PrimitiveId locate(std::uint32_t primitive) const {
+        const auto next = std::upper_bound(first_.begin(), first_.end(), primitive);
+        const auto geometry = static_cast<std::uint32_t>(next - first_.begin() - 1);
+        return {geometry, primitive - first_[geometry]};
+    }
+
+    // Whether the ray hits the primitive within [ray.tmin, ray.tmax]. The only way to a hit, for every structure.
+    bool test(const PreparedRay& ray, std::uint32_t primitive, PrimitiveHit& hit) const {
+        if (!is_hittable(primitive)) return false;
+        const Corners c = corners(primitive);
+        TriangleHit found;
+        if (!test_triangle(ray, c[0], c[1], c[2], found)) return false;
+        if (!(ray.tmin <= found.t && found.t <= ray.tmax)) return false;
+        hit = {found.t, found.u, found.v, primitive};
+        return true;
+    }
+
+    // (v1 - v0) x (v2 - v0), of unit length.
+    Vec3 normal(std::uint32_t primitive) const;
+
+private:
+    std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
+    std::vector<std::uint32_t> first_; // the number of each mesh's first triangle
+    std::vector<bool> unhittable_;     // empty when all can be hit
+    Box bounds_;
+    std::uint32_t count_ = 0;
+    std::uint64_t degenerate_count_ = 0;
+    std::uint64_t invalid_count_ = 0;
+    std::uint64_t hittable_count_ = 0;
+};
+
+} // namespace raywise

@@ -1,0 +1,148 @@
+#include "geometry/triangle_mesh.h"
+
+#include "base/error.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace raywise {
+namespace {
+
+template <class T>
+T load(const std::byte* address) {
+    T value;
+    std::memcpy(&value, address, sizeof value); // the caller's arrays need not be aligned
+    return value;
+}
+
+// Empty when the vertex can be used.
+struct VertexFault {
+    Status status = Status::OK;
+    std::string text;
+};
+
+VertexFault fault_of(const Vec3& p, std::uint64_t vertex) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string where = "vertex " + std::to_string(vertex) + ": coordinate " + "xyz"[axis];
+        if (!std::isfinite(p[axis])) {
+            return {Status::ERROR_NOT_FINITE, where + (std::isnan(p[axis]) ? " is NaN" : " is infinite")};
+        }
+        if (std::fabs(p[axis]) > std::numeric_limits<float>::max()) {
+            return {Status::ERROR_COORDINATE_RANGE, where + " is beyond the largest float32, 3.4e38"};
+        }
+    }
+    return {};
+}
+
+bool is_usable(const Vec3& p) {
+    constexpr double limit = std::numeric_limits<float>::max();
+    return std::fabs(p.x) <= limit && std::fabs(p.y) <= limit && std::fabs(p.z) <= limit; // false for NaN
+}
+
+} // namespace
+
+double StridedArray::number(std::uint64_t element, int component) const {
+    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    return scalar == Scalar::float32 ? static_cast<double>(load<float>(address)) : load<double>(address);
+}
+
+std::uint64_t StridedArray::index(std::uint64_t element, int component) const {
+    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    return scalar == Scalar::uint32 ? load<std::uint32_t>(address) : load<std::uint64_t>(address);
+}
+
+TriangleMesh::TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid) : arrays_(arrays) {
+    check(skip_invalid);
+    if (copy) make_copy();
+}
+
+Corners TriangleMesh::corners(std::uint32_t triangle) const {
+    if (arrays_.indices.data == nullptr) {
+        const std::uint64_t first = std::uint64_t{3} * triangle;
+        return {arrays_.vertices.vec3(first), arrays_.vertices.vec3(first + 1), arrays_.vertices.vec3(first + 2)};
+    }
+    return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)), arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
+            arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
+}
+
+void TriangleMesh::check(bool skip_invalid) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (arrays_.vertex_count > most) {
+        throw Error(Status::ERROR_TOO_MANY, "vertex_count: " + std::to_string(arrays_.vertex_count) + " is above 4294967295");
+    }
+    if (arrays_.triangle_count >= most) {
+        throw Error(Status::ERROR_TOO_MANY, "triangle_count: " + std::to_string(arrays_.triangle_count) + " is above 4294967294");
+    }
+    const bool indexed = arrays_.indices.data != nullptr;
+    if (!indexed && arrays_.vertex_count != 3 * arrays_.triangle_count) {
+        throw Error(Status::ERROR_INVALID_ARGUMENT, "indices: NULL needs 3 vertices per triangle, but vertex_count is " +
+                                                        std::to_string(arrays_.vertex_count) + " and triangle_count " +
+                                                        std::to_string(arrays_.triangle_count));
+    }
+    if (!skip_invalid) {
+        for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) {
+            const Vec3 p = arrays_.vertices.vec3(i);
+            if (is_usable(p)) continue;
+            const VertexFault fault = fault_of(p, i);
+            throw Error(fault.status, "vertices: " + fault.text);
+        }
+    }
+    if (!indexed && !skip_invalid) return;
+
+    std::vector<bool> invalid(arrays_.triangle_count, false);
+    for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint64_t index = indexed ? arrays_.indices.index(i, corner) : 3 * i + static_cast<std::uint64_t>(corner);
+            if (index >= arrays_.vertex_count) {
+                if (!skip_invalid) {
+                    throw Error(Status::ERROR_INDEX_OUT_OF_RANGE,
+                                "triangle " + std::to_string(i) + ": index " + std::to_string(index) +
+                                    " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) + " vertices");
+                }
+                invalid[i] = true;
+            } else if (skip_invalid && !is_usable(arrays_.vertices.vec3(index))) {
+                invalid[i] = true;
+            }
+        }
+        invalid_count_ += invalid[i] ? 1 : 0;
+    }
+    if (invalid_count_ > 0) invalid_ = std::move(invalid);
+}
+
+void TriangleMesh::make_copy() {
+    const auto pack = [](StridedArray& array, std::uint64_t count, std::vector<std::byte>& copy) {
+        const std::size_t size = size_of(array.scalar);
+        copy.resize(count * 3 * size);
+        std::byte* out = copy.data();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
+            for (int component = 0; component < 3; ++component, out += size) {
+                std::memcpy(out, element + component * array.component_stride, size);
+            }
+        }
+        array.data = copy.data();
+        array.component_stride = static_cast<std::ptrdiff_t>(size);
+        array.stride = 3 * array.component_stride;
+    };
+    if (arrays_.indices.data != nullptr) {
+        // 32 bits hold every valid index. Invalid ones may be cut off: their triangles are never looked at.
+        std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
+        std::byte* out = copy.data();
+        for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
+            for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {
+                const auto index = static_cast<std::uint32_t>(arrays_.indices.index(i, corner));
+                std::memcpy(out, &index, sizeof index);
+            }
+        }
+        index_copy_ = std::move(copy);
+        arrays_.indices = {index_copy_.data(), 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), Scalar::uint32};
+        // A null pointer means "no indices"; an empty vector's may be null.
+        static const std::byte none{};
+        if (arrays_.indices.data == nullptr) arrays_.indices.data = &none;
+    }
+    pack(arrays_.vertices, arrays_.vertex_count, vertex_copy_);
+}
+
+} // namespace raywise

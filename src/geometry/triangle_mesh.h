@@ -1,0 +1,89 @@
+// One triangle mesh: strided arrays of the caller's, or packed copies of them, read as double precision corners.
+#pragma once
+
+#include "base/vec.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+namespace raywise {
+
+// An element type of the caller's arrays.
+enum class Scalar { float32, float64, uint8, uint32, uint64 };
+
+constexpr std::size_t size_of(Scalar scalar) {
+    return scalar == Scalar::uint8 ? 1 : scalar == Scalar::float32 || scalar == Scalar::uint32 ? 4 : 8;
+}
+
+// Component c of element i is at data + i * stride + c * component_stride; no alignment is asked for.
+struct StridedArray {
+    const std::byte* data = nullptr;
+    std::ptrdiff_t stride = 0;
+    std::ptrdiff_t component_stride = 0;
+    Scalar scalar = Scalar::float32;
+
+    double number(std::uint64_t element, int component = 0) const;    // float32 or float64
+    std::uint64_t index(std::uint64_t element, int component) const; // uint32 or uint64
+    Vec3 vec3(std::uint64_t element) const;                          // float32 or float64
+};
+
+// Written for speed: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.
+inline Vec3 StridedArray::vec3(std::uint64_t element) const {
+    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
+    if (scalar == Scalar::float32) {
+        float x, y, z;
+        std::memcpy(&x, address, sizeof x);
+        std::memcpy(&y, address + component_stride, sizeof y);
+        std::memcpy(&z, address + 2 * component_stride, sizeof z);
+        return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+    }
+    double x, y, z;
+    std::memcpy(&x, address, sizeof x);
+    std::memcpy(&y, address + component_stride, sizeof y);
+    std::memcpy(&z, address + 2 * component_stride, sizeof z);
+    return {x, y, z};
+}
+
+struct TriangleArrays {
+    StridedArray vertices;
+    std::uint64_t vertex_count = 0;
+    StridedArray indices; // data null: triangle i has the vertices 3i, 3i + 1, 3i + 2
+    std::uint64_t triangle_count = 0;
+};
+
+using Corners = std::array<Vec3, 3>;
+
+class TriangleMesh {
+public:
+    // Checks every vertex and index. Throws Error with ERROR_NOT_FINITE, ERROR_COORDINATE_RANGE, ERROR_INDEX_OUT_OF_RANGE or
+    // ERROR_TOO_MANY, naming the element, unless skip_invalid. copy: keep packed copies instead of the caller's arrays.
+    TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid);
+    TriangleMesh(const TriangleMesh&) = delete; // its arrays may point into itself
+    TriangleMesh& operator=(const TriangleMesh&) = delete;
+
+    std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(arrays_.triangle_count); }
+    Corners corners(std::uint32_t triangle) const;
+
+    // False for triangles with an invalid vertex or index; they have no corners.
+    bool is_valid(std::uint32_t triangle) const { return invalid_.empty() || !invalid_[triangle]; }
+    std::uint64_t invalid_count() const { return invalid_count_; }
+
+    // Memory of the copies.
+    std::size_t bytes() const { return vertex_copy_.size() + index_copy_.size() + invalid_.size() / 8; }
+
+private:
+    void check(bool skip_invalid);
+    void make_copy();
+
+    TriangleArrays arrays_;
+    std::vector<std::byte> vertex_copy_;
+    std::vector<std::byte> index_copy_;
+    std::vector<bool> invalid_; // empty when all are valid
+    std::uint64_t invalid_count_ = 0;
+};
+
+} // namespace raywise

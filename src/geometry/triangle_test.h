@@ -1,0 +1,110 @@
+// The one ray-triangle test. Every structure, entry point and precision ends here; it decides what is hit.
+//
+// Whether the ray's line passes through the triangle is decided by the signs of three determinants, one for each edge,
+// and those signs are those of exact arithmetic on the numbers given. Two triangles that share an edge look at the same
+// determinant with the opposite sign, so no ray slips between them (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle
+// Intersection", asks the same of float32 and retries in float64 at zero). Points on an edge or a corner belong to the triangle.
+//
+// Almost always float64 settles the signs: the corners are sheared so that the ray runs along its major axis (the first
+// steps of Woop et al.), which makes the determinants two-dimensional and their error small and known. Only what lies
+// within that error of zero goes to exact_determinant.
+//
+// A triangle without area, and one the ray lies in the plane of, has determinants that add up to exactly zero: it
+// cannot be hit. No epsilon is used anywhere.
+#pragma once
+
+#include "base/ray.h"
+#include "base/vec.h"
+#include "geometry/exact_determinant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raywise {
+
+// What the test computes. u and v are the weights of the second and third corner. The point they name lies off the exact one by
+// less than 2^-44 of the distance from the ray's origin to the farthest corner, and so does the point at t.
+struct TriangleHit {
+    double t; // scaled, as PreparedRay counts it
+    double u;
+    double v;
+};
+
+namespace triangle_test_detail {
+
+// A corner in the ray's frame: x and y across the ray after shearing, z along its major axis.
+struct Sheared {
+    double x;
+    double y;
+    double z;
+};
+
+inline Sheared shear(const PreparedRay& ray, const Vec3& relative) {
+    const double z = at(relative, ray.major_axis);
+    return {at(relative, ray.x_axis) - ray.shear_x * z, at(relative, ray.y_axis) - ray.shear_y * z, z};
+}
+
+// Twice the area of the origin with p and q.
+inline double edge(const Sheared& p, const Sheared& q) { return p.x * q.y - p.y * q.x; }
+
+inline double largest_component(const Vec3& v) { return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z)); }
+
+} // namespace triangle_test_detail
+
+// a, b, c: corners. Returns whether the line of the ray hits the triangle, in front of the origin or behind it; the caller
+// compares hit.t with its interval.
+inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, TriangleHit& hit) {
+    using namespace triangle_test_detail;
+
+    const Vec3 pa = a - ray.origin;
+    const Vec3 pb = b - ray.origin;
+    const Vec3 pc = c - ray.origin;
+
+    const Sheared sa = shear(ray, pa);
+    const Sheared sb = shear(ray, pb);
+    const Sheared sc = shear(ray, pc);
+
+    // The error of an edge value. |shear_x| <= 1, and each of the few operations behind a sheared coordinate rounds by at most
+    // 2^-53 of the largest relative coordinate: 8 of them are more than enough. An edge multiplies two such coordinates, whose
+    // magnitudes are below `reach`, and rounds three times.
+    const double largest = std::max(std::max(largest_component(pa), largest_component(pb)), largest_component(pc));
+    const double reach = std::fabs(sa.x) + std::fabs(sa.y) + std::fabs(sb.x) + std::fabs(sb.y) + std::fabs(sc.x) + std::fabs(sc.y);
+    const double shear_error = 0x1p-50 * largest;
+    const double error = 1.01 * shear_error * (reach + 2.0 * shear_error) + 0x1p-51 * reach * reach;
+
+    // wa is the weight of corner a: the edge opposite to it, and so on.
+    double wa = edge(sb, sc);
+    double wb = edge(sc, sa);
+    double wc = edge(sa, sb);
+
+    // Certainly of different signs: a miss, for nearly all triangles that are missed. Products of extreme coordinates leave
+    // the range in which the bound holds.
+    const bool in_range = largest > 0x1p-400 && largest < 0x1p400;
+    if (in_range && std::max(std::max(wa, wb), wc) > error && std::min(std::min(wa, wb), wc) < -error) return false;
+
+    const double z_low = std::min(std::min(sa.z, sb.z), sc.z);
+    const double z_high = std::max(std::max(sa.z, sb.z), sc.z);
+    const bool signs_certain = std::min(std::min(std::fabs(wa), std::fabs(wb)), std::fabs(wc)) > error;
+    // t is a mean of the corners' z by these weights. Its error is the weights' relative error times the triangle's
+    // extent in z, and has to stay below the margin that traversal leaves.
+    const bool t_certain = 3.0 * error * (z_high - z_low) * 0x1p40 <= std::fabs(wa + wb + wc) * largest;
+    if (!in_range || !signs_certain || !t_certain) {
+        const AxisScale scale = AxisScale::of(glm::max(glm::abs(pa), glm::max(glm::abs(pb), glm::abs(pc))));
+        wa = exact_determinant(ray.direction, ray.origin, b, c, scale);
+        wb = exact_determinant(ray.direction, ray.origin, c, a, scale);
+        wc = exact_determinant(ray.direction, ray.origin, a, b, scale);
+        if ((wa > 0.0 || wb > 0.0 || wc > 0.0) && (wa < 0.0 || wb < 0.0 || wc < 0.0)) return false;
+    }
+    const double sum = wa + wb + wc;
+    if (sum == 0.0) return false; // signs agree, so all three are zero: no area, or seen edge-on
+
+    const double u = wb / sum;
+    const double v = wc / sum;
+    const double z = sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z));
+    hit.t = std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis);
+    hit.u = u;
+    hit.v = v;
+    return true;
+}
+
+} // namespace raywise

@@ -1,0 +1,120 @@
+// Boxes, their rounding to float32, and the test that must never leave out a hit.
+#include "base/box.h"
+#include "base/ray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace raywise {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double float_max = std::numeric_limits<float>::max();
+
+TEST(Box, GrowsFromNothing) {
+    Box box;
+    EXPECT_TRUE(box.empty());
+    EXPECT_EQ(box.half_area(), 0.0);
+    box.extend(Vec3(1, 2, 3));
+    EXPECT_FALSE(box.empty());
+    EXPECT_EQ(box.half_area(), 0.0);
+    box.extend(Box{{0, 0, 0}, {2, 3, 4}});
+    EXPECT_EQ(box.half_area(), 2 * 3 + 3 * 4 + 4 * 2);
+    EXPECT_EQ(box.longest_axis(), 2);
+    box.extend(Box{});
+    EXPECT_EQ(box.size(), Vec3(2, 3, 4)) << "nothing adds nothing";
+}
+
+TEST(Box, IntersectsToNothingWhenApart) {
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_TRUE(intersection(box, {{2, 0, 0}, {3, 1, 1}}).empty());
+    EXPECT_FALSE(intersection(box, {{1, 0, 0}, {3, 1, 1}}).empty()) << "a shared face is a flat box";
+}
+
+TEST(Box, KeepsItsCenterWithinTheRange) {
+    const Box box{Vec3(-float_max), Vec3(float_max)};
+    EXPECT_EQ(box.center(), Vec3(0.0));
+    EXPECT_TRUE(std::isfinite(box.half_area()));
+}
+
+void expect_rounded(double x) {
+    const float down = round_down(x);
+    const float up = round_up(x);
+    EXPECT_LE(static_cast<double>(down), x);
+    EXPECT_GE(static_cast<double>(up), x);
+    const bool is_float = static_cast<double>(static_cast<float>(x)) == x;
+    EXPECT_EQ(down == up, is_float) << x;
+    if (!is_float) {
+        EXPECT_EQ(std::nextafter(down, up), up) << "the nearest on each side: " << x;
+    }
+}
+
+TEST(Rounding, FindsTheNearestFloatOnEachSide) {
+    for (const double x : {0.0, 1.0, 0.1, 1.0 + 0x1p-30, 16777217.0, 0x1p-149, 0x1p-150, 0x1p-1074, 1e-40, 0x1.fffffffp-127, float_max,
+                           std::nextafter(float_max, 0.0), 1e38, 3.0}) {
+        expect_rounded(x);
+        expect_rounded(-x);
+    }
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 10000; ++i) {
+        const double mantissa = 1.0 + static_cast<double>(random() >> 12) * 0x1p-52;
+        expect_rounded(std::ldexp(i % 2 == 0 ? mantissa : -mantissa, static_cast<int>(random() % 276) - 149));
+    }
+}
+
+TEST(Rounding, KeepsEmptyBoxesEmpty) {
+    const BoxF box = round_outwards(Box{});
+    EXPECT_GT(box.lower.x, box.upper.x);
+}
+
+Ray towards(const Vec3& origin, const Vec3& target) { return {origin, -infinity, target - origin, infinity}; }
+
+TEST(BoxInterval, HoldsEveryPointOfTheBoxWithinTheMargin) {
+    std::mt19937_64 random(2);
+    const auto number = [&random] { return 2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0; };
+    for (int i = 0; i < 20000; ++i) {
+        const double scale = std::ldexp(1.0, static_cast<int>(random() % 80) - 40);
+        Box box;
+        for (int p = 0; p < 2; ++p) box.extend(scale * Vec3(number(), number(), i % 3 == 0 ? 0.0 : number()));
+        const Vec3 inside = box.lower + 0.5 * box.size();
+        Vec3 origin = 4.0 * scale * Vec3(number(), number(), number());
+        if (i % 5 == 0) origin[i % 3] = inside[i % 3];
+        if (origin == inside) continue;
+        const PreparedRay ray(towards(origin, inside), box);
+        double near = 0.0;
+        EXPECT_TRUE(may_hit_box(ray, box, infinity, near)) << i;
+        EXPECT_TRUE(may_hit_box(ray, round_outwards(box), infinity, near)) << i;
+        // 1 for the caller is the point inside.
+        const double t = ray.from_caller(1.0);
+        EXPECT_LE(near, t + ray.margin);
+        EXPECT_TRUE(may_hit_box(ray, box, t, near)) << "a limit at the hit itself";
+    }
+}
+
+TEST(BoxInterval, LeavesOutWhatIsFarOff) {
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    double near = 0.0;
+    const auto hits = [&](const Ray& ray) { return may_hit_box(PreparedRay(ray, box), box, ray.tmax, near); };
+    EXPECT_FALSE(hits({{2, 2, 2}, 0.0, {1, 0, 0}, infinity}));
+    EXPECT_FALSE(hits({{-2, 0.5, 0.5}, 0.0, {-1, 0, 0}, infinity})) << "behind the origin";
+    EXPECT_FALSE(hits({{-2, 0.5, 0.5}, 0.0, {1, 0, 0}, 1.5})) << "beyond tmax";
+    for (const double zero : {0.0, -0.0}) {
+        EXPECT_FALSE(hits({{-2, 1.5, 0.5}, 0.0, {1, zero, zero}, infinity})) << "along an axis, beside the box";
+        EXPECT_FALSE(hits({{-2, -0.5, 0.5}, 0.0, {1, zero, zero}, infinity}));
+        EXPECT_FALSE(hits({{0.5, 0.5, 7}, 0.0, {1, zero, zero}, infinity}));
+        EXPECT_TRUE(hits({{-2, 1.0, 0.5}, 0.0, {1, zero, zero}, infinity})) << "in the plane of a face";
+        EXPECT_TRUE(hits({{-2, 0.0, 0.0}, 0.0, {1, zero, zero}, infinity})) << "along an edge";
+        EXPECT_TRUE(hits({{0.5, 0.5, 0.5}, 0.0, {zero, zero, 1}, infinity})) << "from within";
+    }
+}
+
+TEST(BoxInterval, MeetsNothingInAnEmptyBox) {
+    const PreparedRay ray({{0, 0, 0}, 0.0, {1, 1, 1}, infinity}, {Vec3(-1), Vec3(1)});
+    const Interval interval = box_interval(ray, Box{});
+    EXPECT_FALSE(interval.near <= interval.far);
+}
+
+} // namespace
+} // namespace raywise
