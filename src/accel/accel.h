@@ -1,0 +1,63 @@
+// What a structure must answer, and what it is built from.
+#pragma once
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/ray.h"
+#include "base/structure.h"
+#include "geometry/primitives.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace raywise {
+
+// Costs that steer builders, in nanoseconds; from the calibration profile. Only their ratios matter to a builder.
+struct BuildCosts {
+    double primitive_test_ns = 20.0; // one ray against one triangle
+    double node_step_ns = 5.0;       // one step from node to node
+};
+
+// The point rays start at, or the direction they run along; see rw_view_options.
+struct ViewFrame {
+    enum class Kind { point, direction };
+    Kind kind = Kind::point;
+    Vec3 origin{0.0};
+    Vec3 direction{0.0};     // zero for a point that looks all around
+    double half_angle = 0.0; // radians, of a point with a direction
+};
+
+struct BuildInput {
+    const Primitives& primitives; // outlives the structure
+    BuildCosts costs;
+    std::optional<ViewFrame> view; // for structures that are projected
+    const Parallel& parallel;
+    Progress& progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
+};
+
+// A built structure. Immutable: any number of threads may ask at the same time.
+//
+// The answers are those of the linear scan, bit for bit. A structure only decides which primitives to test, with
+// Primitives::test, and it may leave out a primitive only when no hit on it could change the answer. PreparedRay::margin is the
+// slack to leave in every comparison of distances.
+class Accel {
+public:
+    virtual ~Accel() = default;
+
+    // The first hit in the order of PrimitiveHit, or no hit.
+    virtual PrimitiveHit closest(const PreparedRay& ray) const = 0;
+    virtual bool any(const PreparedRay& ray) const = 0;
+    // Every hit once, appended in any order.
+    virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
+
+    // Memory of the structure.
+    virtual std::size_t bytes() const = 0;
+};
+
+// Makes a structure from its name; the one place that knows all classes. Throws Error(ERROR_CANCELLED) when the caller
+// stops it, std::bad_alloc when memory runs out.
+std::unique_ptr<Accel> build(Structure structure, const BuildInput& input);
+
+} // namespace raywise

@@ -1,0 +1,49 @@
+// The binary bounding volume hierarchy as data, and its builder.
+#pragma once
+
+#include "accel/accel.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace raywise {
+
+// No node lies deeper, so a traversal that pushes at most one node per level needs no more entries.
+inline constexpr int bvh_max_depth = 64;
+
+// 32 bytes: a float32 box, rounded outwards, relative to BvhTree::center; and what is inside.
+struct BvhNode {
+    float planes[2][3];  // lower and upper corner, so that a ray picks its entry planes by the signs of its direction
+    std::uint32_t first; // leaf: its first reference; otherwise the pair of its children
+    std::uint32_t count; // references of a leaf; 0: not a leaf
+
+    bool is_leaf() const { return count > 0; }
+};
+
+// Siblings are always looked at together: one cache line.
+struct alignas(64) BvhPair {
+    BvhNode child[2];
+};
+
+// A pair's index is above that of the pair its parent is in. Without any primitive that can be hit all is empty, the root too.
+struct BvhTree {
+    // What the boxes are relative to: zero, or, where the scene lies far from the origin of coordinates compared with its
+    // size, its middle. float32 resolves 0.5 m at a distance of 5,000 km: boxes of millimetre triangles that are kept in
+    // float64 would all be alike there.
+    Vec3 center{0.0};
+    BvhNode root{};
+    std::vector<BvhPair> pairs;
+    std::vector<std::uint32_t> references; // primitives, in the order of the leaves
+
+    bool empty() const { return references.empty(); }
+    std::size_t bytes() const {
+        return pairs.capacity() * sizeof(BvhPair) + references.capacity() * sizeof(std::uint32_t);
+    }
+};
+
+// Builds the tree top-down by the surface area heuristic, with bins (Wald 2007, "On fast Construction of SAH-based Bounding
+// Volume Hierarchies"). The same tree for any number of threads. Progress is reported from 0 to `progress_end`.
+BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0);
+
+} // namespace raywise

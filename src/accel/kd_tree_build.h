@@ -1,0 +1,67 @@
+// Builds the kd-tree: surface area heuristic over sorted events in O(N log N) (Wald and Havran 2006, "On Building Fast kd-Trees for
+// Ray Tracing, and on Doing That in O(N log N)", section 4.3), with clipped triangles.
+#pragma once
+
+#include "accel/accel.h"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace raywise {
+
+// 8 bytes, as in pbrt (Chuang's lecture, "Tree representation").
+class KdNode {
+public:
+    static KdNode inner(int axis, float split, std::uint32_t child) {
+        KdNode node;
+        std::memcpy(&node.data_, &split, sizeof split);
+        node.link_ = child << 2 | static_cast<std::uint32_t>(axis);
+        return node;
+    }
+    // first: where its references begin, or the one primitive itself.
+    static KdNode leaf(std::uint32_t first, std::uint32_t count) {
+        KdNode node;
+        node.data_ = first;
+        node.link_ = count << 2 | 3u;
+        return node;
+    }
+
+    bool is_leaf() const { return (link_ & 3u) == 3u; }
+    int axis() const { return static_cast<int>(link_ & 3u); }
+    // The side below the split; the one above is next to it.
+    std::uint32_t child() const { return link_ >> 2; }
+    float split() const {
+        float split;
+        std::memcpy(&split, &data_, sizeof split);
+        return split;
+    }
+    std::uint32_t first() const { return data_; }
+    std::uint32_t count() const { return link_ >> 2; }
+
+    // For joining trees.
+    void move_child(std::uint32_t by) { link_ += by << 2; }
+    void move_first(std::uint32_t by) { data_ += by; }
+
+private:
+    std::uint32_t data_ = 0; // split, or first reference
+    std::uint32_t link_ = 3; // child or count, and below it 0, 1, 2: the axis of an inner node; 3: a leaf
+};
+static_assert(sizeof(KdNode) == 8);
+
+struct KdTreeData {
+    std::vector<KdNode> nodes; // the root is the first; empty without hittable primitives
+    std::vector<std::uint32_t> references;
+    // Planes lie at plane_base + split, rounded to double: the same number in the builder and in every ray's walk. The
+    // base is zero unless the scene is far from the origin compared with its size, where a float alone would be too coarse.
+    Vec3 plane_base{0.0};
+
+    static double plane(double base, float split) { return base + static_cast<double>(split); }
+};
+
+// No deeper than this, whatever the scene: the walk's stack has so many places.
+constexpr int most_kd_levels = 64;
+
+KdTreeData build_kd_tree(const BuildInput& input);
+
+} // namespace raywise

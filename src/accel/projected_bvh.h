@@ -1,0 +1,183 @@
+// The bounding volume hierarchy projected onto the planes of a view (Bezerianos, "Ray tracing acceleration by projection").
+//
+// The 3D tree stays as it is and is projected, node by node, onto each plane of the view (thesis 3.1, "view independent hierarchies
+// projected"). A ray that starts at the view's point, aims at it, or runs along its direction is one point of a plane,
+// and the test of a node is whether the point lies in a rectangle: no division, no slabs. All other rays take the 3D tree.
+//
+// Three things differ from the thesis, all of them its future work (7.3): a leaf's rectangle bounds its triangles on the
+// plane, not the projection of their box in space; nodes know their range of depth, by which children are ordered and
+// pruned; and of a cube's six planes only what reaches into a plane's pyramid is kept.
+#pragma once
+
+#include "accel/bvh.h"
+#include "accel/bvh_build.h"
+#include "accel/projection.h"
+#include "accel/visitors.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace raywise {
+
+// What is tested at a node (thesis 3.3.2).
+enum class ProjectionScheme {
+    rectangles, // "2D"
+    boxes,      // "3D": what is left is the view-independent tree
+    combined,   // the rectangle, then the box
+};
+
+// 32 bytes.
+struct PlaneNode {
+    float sides[4];      // lower u, lower v, -upper u, -upper v: a ray's rectangle overlaps when none is above the ray's
+    float near;          // range of depth
+    float far;
+    std::uint32_t first; // as in BvhNode
+    std::uint32_t count;
+
+    bool is_leaf() const { return count > 0; }
+};
+
+struct alignas(64) PlanePair {
+    PlaneNode child[2]; // the nearer one first
+};
+
+// The tree as one plane sees it. A node with a single child that reaches into the plane's pyramid is left out, so it is no
+// deeper than the 3D tree.
+struct PlaneTree {
+    // Subtracted from all coordinates on the plane before they become float32, so that these resolve the scene even where
+    // it is small seen from the view. Rounding is monotone: what overlaps before overlaps after.
+    Vec2 center{0.0};
+    double depth_center = 0.0;
+    bool empty = true;
+    PlaneNode root{};
+    std::vector<PlanePair> pairs;
+    std::vector<std::uint32_t> boxes; // for each node of pairs its node in the 3D tree: 2 * pair + child; combined scheme only
+
+    std::size_t bytes() const { return pairs.capacity() * sizeof(PlanePair) + boxes.capacity() * sizeof(std::uint32_t); }
+};
+
+// A ray in the coordinates of a PlaneTree.
+class PlaneRay {
+public:
+    PlaneRay() = default;
+    PlaneRay(const PreparedRay& ray, const ProjectedRay& projected, const PlaneTree& tree);
+
+    // Depths at which hits from the ray's start to `limit` lie.
+    void set_limit(double limit) {
+        const double depth = depth_ + (limit + margin_) * rate_;
+        if (rate_ > 0.0) {
+            far_ = float_above(depth + depth_error_);
+        } else {
+            near_ = float_below(depth - depth_error_);
+        }
+    }
+
+    bool overlaps_depth(const PlaneNode& node) const { return node.near <= far_ && node.far >= near_; }
+    bool overlaps(const PlaneNode& node) const {
+        const bool inside = (node.sides[0] <= sides_[0]) & (node.sides[1] <= sides_[1]) & (node.sides[2] <= sides_[2]) &
+                            (node.sides[3] <= sides_[3]);
+        return (inside || node.near <= cut_) && overlaps_depth(node);
+    }
+
+    bool is_forward() const { return rate_ > 0.0; }
+
+private:
+    float sides_[4]; // upper u, upper v, -lower u, -lower v
+    float cut_;      // nodes that reach nearer are not judged by their rectangle
+    float near_;
+    float far_;
+    double depth_; // of the ray's origin, less the tree's center
+    double rate_;
+    double depth_error_;
+    double margin_;
+};
+
+class ProjectedBvh final : public TraversedAccel<ProjectedBvh> {
+public:
+    explicit ProjectedBvh(const BuildInput& input, ProjectionScheme scheme = ProjectionScheme::rectangles);
+
+    std::size_t bytes() const override;
+
+    // Whether a ray is answered on a plane.
+    bool uses_projection(const PreparedRay& ray) const {
+        PlaneRay plane_ray;
+        return find_plane(ray, plane_ray) != nullptr;
+    }
+    std::size_t plane_count() const { return trees_.size(); }
+
+    template <class Visitor>
+    void traverse(const PreparedRay& ray, Visitor& visitor) const {
+        PlaneRay plane_ray;
+        const PlaneTree* const tree = find_plane(ray, plane_ray);
+        if (tree == nullptr) {
+            traverse_boxes(tree_, ray, visitor);
+        } else if (scheme_ == ProjectionScheme::combined) {
+            const BoxRay box_ray(ray, tree_.center);
+            traverse_plane(*tree, plane_ray, visitor, [&](std::uint32_t pair, int child, double limit) {
+                const std::uint32_t box = tree->boxes[2 * pair + static_cast<std::uint32_t>(child)];
+                double near;
+                return box_ray.may_hit(tree_.pairs[box / 2].child[box % 2], limit, near);
+            });
+        } else {
+            traverse_plane(*tree, plane_ray, visitor, [](std::uint32_t, int, double) { return true; });
+        }
+    }
+
+private:
+    // The plane tree that answers a ray; null: none.
+    const PlaneTree* find_plane(const PreparedRay& ray, PlaneRay& plane_ray) const;
+
+    template <class Visitor, class BoxTest>
+    void traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor, const BoxTest& may_hit_box) const;
+
+    BvhTree tree_;
+    ProjectionScheme scheme_;
+    ViewPlanes view_;
+    std::vector<PlaneTree> trees_; // one for each plane
+};
+
+template <class Visitor, class BoxTest>
+void ProjectedBvh::traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor, const BoxTest& may_hit_box) const {
+    const PlaneNode* stack[bvh_max_depth]; // at most one per level
+    int height = 0;
+    const int first_child = ray.is_forward() ? 0 : 1;
+
+    double limit = visitor.limit();
+    const PlaneNode* node = &tree.root;
+    if (tree.empty || !ray.overlaps(*node)) return;
+    for (;;) {
+        if (node->is_leaf()) {
+            const std::uint32_t* const references = &tree_.references[node->first];
+            for (std::uint32_t i = 0; i < node->count; ++i) {
+                if (visitor.visit(references[i])) return;
+            }
+            if (visitor.limit() < limit) {
+                limit = visitor.limit();
+                ray.set_limit(limit);
+            }
+        } else {
+            const PlanePair& pair = tree.pairs[node->first];
+            const PlaneNode& nearer = pair.child[first_child];
+            const PlaneNode& farther = pair.child[1 - first_child];
+            const bool hit_nearer = ray.overlaps(nearer) && may_hit_box(node->first, first_child, limit);
+            const bool hit_farther = ray.overlaps(farther) && may_hit_box(node->first, 1 - first_child, limit);
+            if (hit_nearer) {
+                if (hit_farther) stack[height++] = &farther;
+                node = &nearer;
+                continue;
+            }
+            if (hit_farther) {
+                node = &farther;
+                continue;
+            }
+        }
+        // What has been pushed may lie beyond a hit found since.
+        do {
+            if (height == 0) return;
+            node = stack[--height];
+        } while (!ray.overlaps_depth(*node));
+    }
+}
+
+} // namespace raywise

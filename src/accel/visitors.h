@@ -1,0 +1,113 @@
+// The three questions as visitors, so that each structure writes its traversal once.
+//
+// A structure derives from TraversedAccel<Itself> and has
+//     template <class Visitor> void traverse(const PreparedRay& ray, Visitor& visitor) const;
+// which calls visitor.visit(primitive) for primitives the ray may hit, any number of times each, stops as soon as visit
+// returns true, and may skip whatever lies beyond visitor.limit() (scaled t; leave the ray's margin).
+#pragma once
+
+#include "accel/accel.h"
+
+#include <algorithm>
+
+namespace raywise {
+
+class ClosestVisitor {
+public:
+    ClosestVisitor(const Primitives& primitives, const PreparedRay& ray) : primitives_(primitives), ray_(ray), limit_(ray.tmax) {}
+
+    bool visit(std::uint32_t primitive) {
+        PrimitiveHit hit;
+        if (primitives_.test(ray_, primitive, hit) && hit < best_) {
+            best_ = hit;
+            limit_ = hit.t;
+        }
+        return false;
+    }
+    double limit() const { return limit_; }
+    const PrimitiveHit& best() const { return best_; }
+
+private:
+    const Primitives& primitives_;
+    const PreparedRay& ray_;
+    PrimitiveHit best_;
+    double limit_;
+};
+
+class AnyVisitor {
+public:
+    AnyVisitor(const Primitives& primitives, const PreparedRay& ray) : primitives_(primitives), ray_(ray) {}
+
+    bool visit(std::uint32_t primitive) {
+        PrimitiveHit hit;
+        found_ = primitives_.test(ray_, primitive, hit);
+        return found_;
+    }
+    double limit() const { return ray_.tmax; }
+    bool found() const { return found_; }
+
+private:
+    const Primitives& primitives_;
+    const PreparedRay& ray_;
+    bool found_ = false;
+};
+
+class AllVisitor {
+public:
+    AllVisitor(const Primitives& primitives, const PreparedRay& ray, std::vector<PrimitiveHit>& hits)
+        : primitives_(primitives), ray_(ray), hits_(hits), first_(hits.size()) {}
+
+    bool visit(std::uint32_t primitive) {
+        PrimitiveHit hit;
+        if (primitives_.test(ray_, primitive, hit)) hits_.push_back(hit);
+        return false;
+    }
+    double limit() const { return ray_.tmax; }
+
+    // Structures that split space meet a primitive in several cells.
+    void remove_repeats() {
+        const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(first_);
+        std::sort(first, hits_.end());
+        hits_.erase(std::unique(first, hits_.end(),
+                                [](const PrimitiveHit& a, const PrimitiveHit& b) { return a.primitive == b.primitive; }),
+                    hits_.end());
+    }
+
+private:
+    const Primitives& primitives_;
+    const PreparedRay& ray_;
+    std::vector<PrimitiveHit>& hits_;
+    std::size_t first_;
+};
+
+template <class Derived>
+class TraversedAccel : public Accel {
+public:
+    explicit TraversedAccel(const Primitives& primitives) : primitives_(primitives) {}
+
+    PrimitiveHit closest(const PreparedRay& ray) const final {
+        ClosestVisitor visitor(primitives_, ray);
+        derived().traverse(ray, visitor);
+        return visitor.best();
+    }
+    bool any(const PreparedRay& ray) const final {
+        AnyVisitor visitor(primitives_, ray);
+        derived().traverse(ray, visitor);
+        return visitor.found();
+    }
+    void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const final {
+        AllVisitor visitor(primitives_, ray, hits);
+        derived().traverse(ray, visitor);
+        visitor.remove_repeats();
+    }
+
+protected:
+    const Primitives& primitives() const { return primitives_; }
+
+private:
+    const Derived& derived() const { return static_cast<const Derived&>(*this); }
+
+    const Primitives& primitives_;
+};
+
+} // namespace raywise
