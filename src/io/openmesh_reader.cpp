@@ -1,0 +1,151 @@
+#include "io/openmesh_reader.h"
+
+#include "base/error.h"
+
+#include <OpenMesh/Core/IO/IOManager.hh>
+#include <OpenMesh/Core/IO/importer/BaseImporter.hh>
+#include <OpenMesh/Core/IO/reader/OBJReader.hh>
+#include <OpenMesh/Core/IO/reader/OFFReader.hh>
+#include <OpenMesh/Core/IO/reader/PLYReader.hh>
+#include <OpenMesh/Core/System/omstream.hh>
+
+#include <locale>
+#include <mutex>
+#include <sstream>
+
+namespace raywise::io {
+namespace {
+
+using namespace OpenMesh;
+
+// Takes positions and faces down, and has no use for anything else a reader may offer.
+class Importer final : public IO::BaseImporter {
+public:
+    explicit Importer(RawMesh& mesh) : mesh_(mesh) {}
+
+    using BaseImporter::add_vertex;
+    VertexHandle add_vertex(const Vec3f& p) override {
+        mesh_.vertices.insert(mesh_.vertices.end(), {p[0], p[1], p[2]});
+        return VertexHandle(static_cast<int>(n_vertices() - 1));
+    }
+    VertexHandle add_vertex() override { return add_vertex(Vec3f(0.0f, 0.0f, 0.0f)); }
+    void set_point(VertexHandle vertex, const Vec3f& p) override {
+        const auto first = 3 * static_cast<std::size_t>(vertex.idx());
+        for (std::size_t axis = 0; axis < 3; ++axis) mesh_.vertices.at(first + axis) = p[axis];
+    }
+    FaceHandle add_face(const VHandles& corners) override {
+        for (const VertexHandle corner : corners) mesh_.corners.push_back(corner.idx());
+        mesh_.face_ends.push_back(mesh_.corners.size());
+        return FaceHandle(static_cast<int>(n_faces() - 1));
+    }
+    std::size_t n_vertices() const override { return mesh_.vertices.size() / 3; }
+    std::size_t n_faces() const override { return mesh_.face_ends.size(); }
+    std::size_t n_edges() const override { return 0; }
+
+    HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
+    FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
+    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec2f>&) override {}
+    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec3f>&) override {}
+    void set_face_texindex(FaceHandle, int) override {}
+    void set_halfedge(VertexHandle, HalfedgeHandle) override {}
+    void set_normal(VertexHandle, const Vec3f&) override {}
+    void set_normal(VertexHandle, const Vec3d&) override {}
+    void set_normal(FaceHandle, const Vec3f&) override {}
+    void set_normal(FaceHandle, const Vec3d&) override {}
+    void set_color(VertexHandle, const Vec3uc&) override {}
+    void set_color(VertexHandle, const Vec4uc&) override {}
+    void set_color(VertexHandle, const Vec3f&) override {}
+    void set_color(VertexHandle, const Vec4f&) override {}
+    void set_color(EdgeHandle, const Vec3uc&) override {}
+    void set_color(EdgeHandle, const Vec4uc&) override {}
+    void set_color(EdgeHandle, const Vec3f&) override {}
+    void set_color(EdgeHandle, const Vec4f&) override {}
+    void set_color(FaceHandle, const Vec3uc&) override {}
+    void set_color(FaceHandle, const Vec4uc&) override {}
+    void set_color(FaceHandle, const Vec3f&) override {}
+    void set_color(FaceHandle, const Vec4f&) override {}
+    void set_texcoord(VertexHandle, const Vec2f&) override {}
+    void set_texcoord(VertexHandle, const Vec3f&) override {}
+    void set_texcoord(HalfedgeHandle, const Vec2f&) override {}
+    void set_texcoord(HalfedgeHandle, const Vec3f&) override {}
+    void set_status(VertexHandle, const Attributes::StatusInfo&) override {}
+    void set_status(HalfedgeHandle, const Attributes::StatusInfo&) override {}
+    void set_status(EdgeHandle, const Attributes::StatusInfo&) override {}
+    void set_status(FaceHandle, const Attributes::StatusInfo&) override {}
+    void set_next(HalfedgeHandle, HalfedgeHandle) override {}
+    void set_face(HalfedgeHandle, FaceHandle) override {}
+    void request_face_texcoords2D() override {}
+    void add_texture_information(int, std::string) override {}
+
+private:
+    RawMesh& mesh_;
+};
+
+// Keeps OpenMesh's streams quiet for as long as it lives.
+class Silence {
+public:
+    Silence() : errors_(omerr().is_enabled()), log_(omlog().is_enabled()) {
+        omerr().disable();
+        omlog().disable();
+    }
+    ~Silence() {
+        if (errors_) omerr().enable();
+        if (log_) omlog().enable();
+    }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+
+private:
+    bool errors_;
+    bool log_;
+};
+
+// The readers parse numbers with streams of their own, which follow the global C++ locale. Most programs leave it alone; where one
+// has set a locale that writes numbers differently it is put aside while a file is read.
+class PlainNumbers {
+public:
+    PlainNumbers() {
+        const auto& numbers = std::use_facet<std::numpunct<char>>(before_);
+        changed_ = numbers.decimal_point() != '.' || !numbers.grouping().empty();
+        if (changed_) std::locale::global(std::locale::classic());
+    }
+    ~PlainNumbers() {
+        if (changed_) std::locale::global(before_);
+    }
+    PlainNumbers(const PlainNumbers&) = delete;
+    PlainNumbers& operator=(const PlainNumbers&) = delete;
+
+private:
+    std::locale before_;
+    bool changed_ = false;
+};
+
+bool run(FileKind kind, const std::filesystem::path& path, std::istream& stream, Importer& importer) {
+    IO::Options options;
+    switch (kind) {
+    case FileKind::obj: return IO::IOManager().read(stream, "obj", importer, options);
+    case FileKind::ply: return IO::IOManager().read(stream, "ply", importer, options);
+    case FileKind::off:
+        // This reader learns from the file's first line what each vertex has, and a stream does not make it look.
+        IO::OFFReader().can_u_read(path.string());
+        return IO::IOManager().read(stream, "off", importer, options);
+    case FileKind::stl: break;
+    }
+    return false;
+}
+
+} // namespace
+
+RawMesh read_with_openmesh(FileKind kind, const std::filesystem::path& path, const std::string& text) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    const Silence silence;
+    const PlainNumbers numbers;
+    RawMesh mesh;
+    Importer importer(mesh);
+    std::istringstream stream(text, std::ios::in | std::ios::binary);
+    if (!run(kind, path, stream, importer)) throw Error(Status::ERROR_FILE_FORMAT, "OpenMesh cannot read the file");
+    return mesh;
+}
+
+} // namespace raywise::io

@@ -1,0 +1,41 @@
+// Every number that decides something, as calibration measures it. All times in nanoseconds of wall time on one thread.
+#pragma once
+
+#include "base/structure.h"
+#include "model/workload.h"
+
+#include <array>
+
+namespace raywise {
+
+// cost = fixed + per_unit * unit(N); which unit a structure uses is said in cost_functions.cpp.
+struct CostLine {
+    double fixed = 0.0;
+    double per_unit = 0.0;
+    double residual = 0.0; // root mean square of the relative misfit over the calibration scenes
+};
+
+struct StructureConstants {
+    CostLine build_ns;
+    std::array<CostLine, measured_ray_kinds.size()> ray_ns; // per ray; shadow rays ask for any hit, the others for the closest
+    CostLine bytes;                                         // unit: triangles
+};
+
+// Hapala, Karlik, Havran 2011, eq. 7 and 8: means over the calibration scenes of the hierarchy's (kd-tree's) build time
+// per N log2 N and time per ray per log2 N.
+struct HapalaConstants {
+    double build_ns_per_n_log_n = 0.0;
+    double ray_ns_per_log_n = 0.0;
+};
+
+struct MachineConstants {
+    PerStructure<StructureConstants> structures;
+    HapalaConstants hapala;
+    double primitive_test_ns = 0.0; // one ray against one triangle: for builders
+    double node_step_ns = 0.0;      // one step from node to node: for builders
+};
+
+// Changes only when kernels or builders change so much that old measurements mislead.
+inline constexpr unsigned calibration_epoch = 1;
+
+} // namespace raywise

@@ -1,0 +1,191 @@
+// The profile's file format, "raywise-profile/1": JSON, every member required, none besides.
+#include "model/cost_functions.h"
+#include "model/json_reader.h"
+#include "model/profile.h"
+
+#include <cmath>
+#include <limits>
+
+namespace raywise {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* schema = "raywise-profile/1";
+
+// What is believed at most. Ten thousand seconds for something that costs the same for every scene, a second per
+// triangle or ray: slower than any machine by orders of magnitude, and far from overflow in any sum.
+constexpr double most_fixed_ns = 1e13;
+constexpr double most_ns_per_unit = 1e9;
+constexpr double most_fixed_bytes = 1e12;
+constexpr double most_bytes_per_triangle = 1e6;
+constexpr double most_residual = 1e3;   // relative: a thousandfold misfit
+constexpr double most_single_ns = 1e6;  // one triangle test or one step between nodes
+constexpr double most_seconds = 1e7;    // spent on measuring: four months
+constexpr std::uint64_t most_cache_bytes = std::uint64_t{1} << 40;
+constexpr std::uint64_t most_threads = 1u << 20;
+
+ordered_json line_json(const CostLine& line, const char* unit) {
+    return {{"fixed", line.fixed}, {"per_unit", line.per_unit}, {"unit", unit}, {"residual", line.residual}};
+}
+
+struct LineLimits {
+    double fixed;
+    double per_unit;
+    bool may_be_zero; // a structure may take no memory, but nothing takes no time
+};
+constexpr LineLimits time_limits{most_fixed_ns, most_ns_per_unit, false};
+constexpr LineLimits byte_limits{most_fixed_bytes, most_bytes_per_triangle, true};
+
+CostLine parse_line(const JsonValue& value, const char* unit, const LineLimits& limits) {
+    value.expect_members({"fixed", "per_unit", "unit", "residual"});
+    CostLine line;
+    line.fixed = value["fixed"].number(0.0, limits.fixed);
+    line.per_unit = value["per_unit"].number(0.0, limits.per_unit);
+    line.residual = value["residual"].number(0.0, most_residual);
+    if (value["unit"].text() != unit) {
+        value["unit"].refuse(Status::PROFILE_MALFORMED, std::string("has to be \"") + unit + "\"");
+    }
+    if (line.fixed <= 0.0 && line.per_unit <= 0.0 && !limits.may_be_zero) {
+        value.refuse(Status::PROFILE_RANGE, "fixed and per_unit are both zero");
+    }
+    return line;
+}
+
+StructureConstants parse_structure(const JsonValue& value, Structure structure) {
+    value.expect_members({"build_ns", "ray_ns", "bytes"});
+    StructureConstants constants;
+    constants.build_ns = parse_line(value["build_ns"], build_unit_name(structure), time_limits);
+    constants.bytes = parse_line(value["bytes"], "N", byte_limits);
+    const JsonValue rays = value["ray_ns"];
+    rays.expect_members({measured_ray_kind_names.begin(), measured_ray_kind_names.end()});
+    for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
+        constants.ray_ns[kind] = parse_line(rays[measured_ray_kind_names[kind]], ray_unit_name(structure), time_limits);
+    }
+    return constants;
+}
+
+Machine parse_machine(const JsonValue& value) {
+    value.expect_members({"vendor", "brand", "family", "model", "stepping", "instruction_set", "l1_bytes", "l2_bytes",
+                          "l3_bytes", "threads", "precision", "virtualised"});
+    constexpr std::uint64_t most_id = std::numeric_limits<std::uint32_t>::max();
+    Machine machine;
+    machine.vendor = value["vendor"].text();
+    machine.brand = value["brand"].text();
+    machine.family = static_cast<unsigned>(value["family"].whole_number(0, most_id));
+    machine.model = static_cast<unsigned>(value["model"].whole_number(0, most_id));
+    machine.stepping = static_cast<unsigned>(value["stepping"].whole_number(0, most_id));
+    machine.instruction_set = value["instruction_set"].text();
+    machine.l1_bytes = value["l1_bytes"].whole_number(0, most_cache_bytes);
+    machine.l2_bytes = value["l2_bytes"].whole_number(0, most_cache_bytes);
+    machine.l3_bytes = value["l3_bytes"].whole_number(0, most_cache_bytes);
+    machine.threads = static_cast<unsigned>(value["threads"].whole_number(1, most_threads));
+    machine.precision = value["precision"].text();
+    machine.virtualised = value["virtualised"].boolean();
+    return machine;
+}
+
+Provenance parse_provenance(const JsonValue& value) {
+    value.expect_members({"tool", "command", "date", "mode", "spread", "seconds"});
+    Provenance provenance;
+    provenance.tool = value["tool"].text();
+    provenance.command = value["command"].text();
+    provenance.date = value["date"].text();
+    provenance.mode = value["mode"].text();
+    provenance.spread = value["spread"].number(0.0, most_residual);
+    provenance.seconds = value["seconds"].number(0.0, most_seconds);
+    return provenance;
+}
+
+// A cost of nothing would make every quotient of the published rule meaningless.
+double parse_positive(const JsonValue& value, double highest) {
+    return value.number(std::numeric_limits<double>::min(), highest);
+}
+
+} // namespace
+
+std::string to_json(const Profile& profile) {
+    const Machine& machine = profile.machine;
+    const Provenance& provenance = profile.provenance;
+    const MachineConstants& constants = profile.constants;
+
+    ordered_json structures = ordered_json::object();
+    for (const Structure structure : all_structures()) {
+        const StructureConstants& lines = constants.structures[structure];
+        ordered_json rays = ordered_json::object();
+        for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
+            rays[measured_ray_kind_names[kind]] = line_json(lines.ray_ns[kind], ray_unit_name(structure));
+        }
+        structures[name_of(structure)] = {{"build_ns", line_json(lines.build_ns, build_unit_name(structure))},
+                                          {"ray_ns", std::move(rays)},
+                                          {"bytes", line_json(lines.bytes, "N")}};
+    }
+    const ordered_json document = {
+        {"schema", schema},
+        {"epoch", profile.epoch},
+        {"machine",
+         {{"vendor", machine.vendor},
+          {"brand", machine.brand},
+          {"family", machine.family},
+          {"model", machine.model},
+          {"stepping", machine.stepping},
+          {"instruction_set", machine.instruction_set},
+          {"l1_bytes", machine.l1_bytes},
+          {"l2_bytes", machine.l2_bytes},
+          {"l3_bytes", machine.l3_bytes},
+          {"threads", machine.threads},
+          {"precision", machine.precision},
+          {"virtualised", machine.virtualised}}},
+        {"provenance",
+         {{"tool", provenance.tool},
+          {"command", provenance.command},
+          {"date", provenance.date},
+          {"mode", provenance.mode},
+          {"spread", provenance.spread},
+          {"seconds", provenance.seconds}}},
+        {"structures", std::move(structures)},
+        {"hapala",
+         {{"build_ns_per_n_log_n", constants.hapala.build_ns_per_n_log_n},
+          {"ray_ns_per_log_n", constants.hapala.ray_ns_per_log_n}}},
+        {"primitive_test_ns", constants.primitive_test_ns},
+        {"node_step_ns", constants.node_step_ns},
+    };
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+Profile parse_profile(const std::string& text) {
+    const nlohmann::json document = parse_bounded(text);
+    const JsonValue root(document, "");
+
+    // First what tells whether the rest means anything.
+    if (root["schema"].text() != schema) {
+        root["schema"].refuse(Status::PROFILE_SCHEMA, std::string("this library reads \"") + schema + "\"");
+    }
+    const std::uint64_t epoch = root["epoch"].whole_number(0, std::numeric_limits<std::uint32_t>::max());
+    if (epoch != calibration_epoch) {
+        root["epoch"].refuse(Status::PROFILE_EPOCH,
+                             "this library's kernels are of epoch " + std::to_string(calibration_epoch));
+    }
+
+    root.expect_members({"schema", "epoch", "machine", "provenance", "structures", "hapala", "primitive_test_ns",
+                         "node_step_ns"});
+    Profile profile;
+    profile.epoch = static_cast<unsigned>(epoch);
+    profile.machine = parse_machine(root["machine"]);
+    profile.provenance = parse_provenance(root["provenance"]);
+
+    const JsonValue structures = root["structures"];
+    structures.expect_members({structure_names.begin(), structure_names.end()});
+    for (const Structure structure : all_structures()) {
+        profile.constants.structures[structure] = parse_structure(structures[name_of(structure)], structure);
+    }
+    const JsonValue hapala = root["hapala"];
+    hapala.expect_members({"build_ns_per_n_log_n", "ray_ns_per_log_n"});
+    profile.constants.hapala.build_ns_per_n_log_n = parse_positive(hapala["build_ns_per_n_log_n"], most_ns_per_unit);
+    profile.constants.hapala.ray_ns_per_log_n = parse_positive(hapala["ray_ns_per_log_n"], most_ns_per_unit);
+    profile.constants.primitive_test_ns = parse_positive(root["primitive_test_ns"], most_single_ns);
+    profile.constants.node_step_ns = parse_positive(root["node_step_ns"], most_single_ns);
+    return profile;
+}
+
+} // namespace raywise
