@@ -1,0 +1,180 @@
+#include "convert.h"
+
+#include "guard.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace raywise::capi {
+namespace {
+
+Error bad_argument(const std::string& message) { return {Status::ERROR_INVALID_ARGUMENT, message}; }
+
+// The type an array has, 0 standing for the usual one. `allowed` lists what the place takes, the usual one first.
+Scalar read_type(std::int32_t type, const std::vector<std::int32_t>& allowed, const std::string& name) {
+    const std::int32_t actual = type == RW_TYPE_DEFAULT ? allowed.front() : type;
+    if (std::find(allowed.begin(), allowed.end(), actual) == allowed.end()) {
+        throw bad_argument(name + ": type " + std::to_string(type) + " has no meaning here");
+    }
+    switch (actual) {
+    case RW_FLOAT32: return Scalar::float32;
+    case RW_FLOAT64: return Scalar::float64;
+    case RW_UINT8: return Scalar::uint8;
+    case RW_UINT32: return Scalar::uint32;
+    default: return Scalar::uint64;
+    }
+}
+
+struct Strides {
+    std::ptrdiff_t stride;
+    std::ptrdiff_t component_stride;
+};
+
+Strides read_strides(std::int64_t stride, std::int64_t component_stride, Scalar scalar, int components) {
+    const auto size = static_cast<std::ptrdiff_t>(size_of(scalar));
+    return {stride == RW_REPEAT ? 0 : stride == 0 ? components * size : static_cast<std::ptrdiff_t>(stride),
+            component_stride == 0 ? size : static_cast<std::ptrdiff_t>(component_stride)};
+}
+
+} // namespace
+
+StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
+                        const std::string& name) {
+    if (array.data == nullptr) {
+        if (required && count > 0) throw bad_argument(name + ": data is NULL for " + std::to_string(count) + " elements");
+        return {};
+    }
+    StridedArray result;
+    result.scalar = elements == Elements::numbers ? read_type(array.type, {RW_FLOAT32, RW_FLOAT64}, name)
+                                                  : read_type(array.type, {RW_UINT32, RW_UINT64}, name);
+    const Strides strides = read_strides(array.stride, array.component_stride, result.scalar, components);
+    result.data = static_cast<const std::byte*>(array.data);
+    result.stride = strides.stride;
+    result.component_stride = strides.component_stride;
+    return result;
+}
+
+OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind, const std::string& name) {
+    if (output.data == nullptr) return {};
+    OutputArray result;
+    result.scalar = kind == OutputKind::numbers ? read_type(output.type, {RW_FLOAT32, RW_FLOAT64}, name)
+                    : kind == OutputKind::ids   ? read_type(output.type, {RW_UINT32, RW_UINT64}, name)
+                                                : read_type(output.type, {RW_UINT8, RW_UINT32, RW_UINT64}, name);
+    const Strides strides = read_strides(output.stride, output.component_stride, result.scalar, components);
+    const auto size = static_cast<std::ptrdiff_t>(size_of(result.scalar));
+    const bool elements_overlap = count > 1 && strides.stride < size && strides.stride > -size;
+    const bool components_overlap = components > 1 && strides.component_stride < size && strides.component_stride > -size;
+    if (elements_overlap || components_overlap) throw bad_argument(name + ": its strides let elements overlap");
+    result.data = static_cast<std::byte*>(output.data);
+    result.stride = strides.stride;
+    result.component_stride = strides.component_stride;
+    return result;
+}
+
+TriangleArrays read_triangles(const rw_triangles& triangles) {
+    if ((triangles.flags & ~(RW_TRIANGLES_SHARED | RW_TRIANGLES_SKIP_INVALID)) != 0) {
+        throw bad_argument("triangles: flags " + std::to_string(triangles.flags) + " has an unknown bit");
+    }
+    TriangleArrays arrays;
+    arrays.vertex_count = triangles.vertex_count;
+    arrays.triangle_count = triangles.triangle_count;
+    arrays.vertices = read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, "triangles.vertices");
+    arrays.indices = read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, "triangles.indices");
+    return arrays;
+}
+
+RayArrays read_rays(const rw_rays* source, const char* name) {
+    const rw_rays rays = read_struct(source, name);
+    const std::string prefix = std::string(name) + ".";
+    if (rays.flags != 0) throw bad_argument(prefix + "flags: " + std::to_string(rays.flags) + " has an unknown bit");
+    if (rays.count > RW_RAYS_LIMIT) {
+        throw Error(Status::ERROR_TOO_MANY, prefix + "count: " + std::to_string(rays.count) + " is above " + std::to_string(RW_RAYS_LIMIT));
+    }
+    RayArrays arrays;
+    arrays.count = rays.count;
+    arrays.origin = read_array(rays.origin, rays.count, 3, Elements::numbers, true, prefix + "origin");
+    arrays.direction = read_array(rays.direction, rays.count, 3, Elements::numbers, true, prefix + "direction");
+    arrays.tmin = read_array(rays.tmin, rays.count, 1, Elements::numbers, false, prefix + "tmin");
+    arrays.tmax = read_array(rays.tmax, rays.count, 1, Elements::numbers, false, prefix + "tmax");
+    return arrays;
+}
+
+HitArrays read_hits(const rw_hits* source, std::uint64_t count) {
+    const rw_hits hits = read_struct(source, "hits");
+    if (hits.flags != 0) throw bad_argument("hits.flags: " + std::to_string(hits.flags) + " has an unknown bit");
+    HitArrays arrays;
+    arrays.t = read_output(hits.t, count, 1, OutputKind::numbers, "hits.t");
+    arrays.uv = read_output(hits.uv, count, 2, OutputKind::numbers, "hits.uv");
+    arrays.normal = read_output(hits.normal, count, 3, OutputKind::numbers, "hits.normal");
+    arrays.instance = read_output(hits.instance, count, 1, OutputKind::ids, "hits.instance");
+    arrays.geometry = read_output(hits.geometry, count, 1, OutputKind::ids, "hits.geometry");
+    arrays.primitive = read_output(hits.primitive, count, 1, OutputKind::ids, "hits.primitive");
+    return arrays;
+}
+
+Ray read_ray(const rw_ray* source) {
+    const rw_ray& ray = required(source, "ray");
+    return {{ray.origin[0], ray.origin[1], ray.origin[2]}, ray.tmin, {ray.direction[0], ray.direction[1], ray.direction[2]}, ray.tmax};
+}
+
+rw_hit write_hit(const Hit& hit) {
+    return {hit.t, hit.u, hit.v, {hit.normal.x, hit.normal.y, hit.normal.z}, hit.instance, hit.geometry, hit.primitive, 0};
+}
+
+Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name) {
+    const std::string prefix = std::string(name) + ".";
+    if (kind < RW_RAYS_ANY_KIND || kind > RW_RAYS_DIFFUSE) {
+        throw bad_argument(prefix + "kind: " + std::to_string(kind) + " is no kind of rays");
+    }
+    Workload workload;
+    workload.kind = static_cast<RayKind>(kind);
+    if (count == RW_RAYS_UNKNOWN) return workload;
+    if (count == 0 || count > RW_RAYS_LIMIT) {
+        throw Error(Status::ERROR_RAY_COUNT, prefix + "count: " + std::to_string(count) + " is not between 1 and " +
+                                                 std::to_string(RW_RAYS_LIMIT) + "; RW_RAYS_UNKNOWN says that nobody knows");
+    }
+    workload.rays = count;
+    return workload;
+}
+
+std::optional<Structure> read_structure(const char* name) {
+    if (name == nullptr) return std::nullopt;
+    const std::optional<Structure> structure = structure_named(name);
+    if (structure) return structure;
+    std::string known;
+    for (const char* each : structure_names) known += (known.empty() ? "" : ", ") + std::string(each);
+    throw Error(Status::ERROR_UNKNOWN_STRUCTURE,
+                "structure: there is none named \"" + std::string(name, strnlen(name, 64)) + "\"; there are " + known);
+}
+
+Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void* user) {
+    if (parallel_for == nullptr) return Parallel(threads);
+    return Parallel(threads, [parallel_for, user](std::uint64_t count, const Parallel::Task& task) {
+        const rw_task call = [](void* data, std::uint64_t index) { (*static_cast<const Parallel::Task*>(data))(index); };
+        parallel_for(user, count, call, const_cast<Parallel::Task*>(&task));
+    });
+}
+
+Progress::Callback read_progress(rw_progress progress, void* user) {
+    if (progress == nullptr) return {};
+    return [progress, user](double fraction, const char* stage) { return progress(user, fraction, stage) != 0; };
+}
+
+bool is_json(std::int32_t format) {
+    if (format != RW_FORMAT_TEXT && format != RW_FORMAT_JSON) throw bad_argument("format: " + std::to_string(format) + " is no format");
+    return format == RW_FORMAT_JSON;
+}
+
+std::int32_t write_text(const std::string& text, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {
+    if (buffer == nullptr && capacity > 0) throw null_argument("buffer");
+    if (needed != nullptr) *needed = text.size() + 1;
+    if (buffer == nullptr || capacity == 0) return RW_OK;
+    const std::size_t copied = std::min<std::uint64_t>(text.size(), capacity - 1);
+    std::memcpy(buffer, text.data(), copied);
+    buffer[copied] = '\0';
+    if (copied == text.size()) return RW_OK;
+    throw Error(Status::ERROR_CAPACITY, "buffer: " + std::to_string(text.size() + 1) + " bytes are needed, capacity is " + std::to_string(capacity));
+}
+
+} // namespace raywise::capi

@@ -1,0 +1,80 @@
+// From the structs of the C ABI to the library's own, with every check a caller's mistake calls for. All throw Error.
+#pragma once
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "batch/batch.h"
+#include "geometry/triangle_mesh.h"
+#include "handles.h"
+#include "raywise/raywise.h"
+#include "scene/tracer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace raywise::capi {
+
+// Reads a struct that begins with its size. A larger one, of a newer program, is fine as long as what this library does not
+// know is zero.
+template <class T>
+T read_struct(const T* source, const char* name) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, &required(source, name), sizeof size);
+    if (size < sizeof(T) || size > 4096) {
+        throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": struct_size is " + std::to_string(size) + ", it should be " +
+                                                        std::to_string(sizeof(T)));
+    }
+    const auto* bytes = reinterpret_cast<const unsigned char*>(source);
+    if (std::any_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte != 0; })) {
+        throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": it sets a member that this version of the library does not know");
+    }
+    T copy;
+    std::memcpy(&copy, source, sizeof copy);
+    return copy;
+}
+
+// The same for a struct that may be absent: all zero then.
+template <class T>
+T read_optional_struct(const T* source, const char* name) {
+    if (source != nullptr) return read_struct(source, name);
+    T defaults{};
+    defaults.struct_size = sizeof defaults;
+    return defaults;
+}
+
+// Hands a result struct out, keeping the caller's struct_size.
+template <class T>
+void write_struct(T* target, const char* name, T value) {
+    value.struct_size = read_struct(target, name).struct_size;
+    std::memcpy(target, &value, sizeof value);
+}
+
+enum class Elements { numbers, indices };
+
+// components: 1, 2 or 3. required: whether data may be NULL.
+StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
+                        const std::string& name);
+
+enum class OutputKind { numbers, ids, flags };
+OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind, const std::string& name);
+
+TriangleArrays read_triangles(const rw_triangles& triangles);
+RayArrays read_rays(const rw_rays* rays, const char* name);
+HitArrays read_hits(const rw_hits* hits, std::uint64_t count);
+Ray read_ray(const rw_ray* ray);
+rw_hit write_hit(const Hit& hit);
+
+Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name);
+std::optional<Structure> read_structure(const char* name);
+
+Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void* user);
+Progress::Callback read_progress(rw_progress progress, void* user);
+
+// RW_FORMAT_JSON rather than RW_FORMAT_TEXT; anything else is an error.
+bool is_json(std::int32_t format);
+
+// Copies a text into the caller's buffer as rw_profile_text promises; returns the status.
+std::int32_t write_text(const std::string& text, char* buffer, std::uint64_t capacity, std::uint64_t* needed);
+
+} // namespace raywise::capi

@@ -1,0 +1,60 @@
+// One shot: meshes and rays in, answers out, nothing kept.
+#include "query.h"
+
+using namespace raywise;
+using namespace raywise::capi;
+
+namespace {
+
+// A committed scene over the caller's arrays, planned for exactly these rays.
+Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_once_options& options,
+                 const rw_query_options& query) {
+    Scene scene(options.profile != nullptr ? options.profile->value : std::make_shared<const Profile>(find_profile()));
+    if (mesh_count > 0) required(meshes, "meshes");
+    const auto* bytes = reinterpret_cast<const std::byte*>(meshes);
+    for (std::uint32_t i = 0; i < mesh_count; ++i) {
+        const std::string name = "meshes[" + std::to_string(i) + "]";
+        // Elements are as far apart as the caller's struct is large, which a newer program's may be.
+        const auto* element = reinterpret_cast<const rw_triangles*>(bytes + std::size_t{i} * meshes->struct_size);
+        const rw_triangles mesh = read_struct(element, name.c_str());
+        if (mesh.struct_size != meshes->struct_size) {
+            throw Error(Status::ERROR_INVALID_ARGUMENT, name + ": struct_size differs from that of meshes[0]");
+        }
+        scene.add_triangles(read_triangles(mesh), false, (mesh.flags & RW_TRIANGLES_SKIP_INVALID) != 0);
+    }
+    const RayArrays arrays = read_rays(rays, "rays");
+    Workload workload = read_workload(RW_RAYS_UNKNOWN, options.kind, "options");
+    workload.rays = std::max<std::uint64_t>(arrays.count, 1);
+    scene.set_expected(workload, {});
+    scene.set_memory_limit(options.memory_limit);
+    scene.set_structure(read_structure(options.structure));
+    Progress progress;
+    scene.commit(read_parallel(query.threads, query.parallel_for, query.parallel_user), progress);
+    return scene;
+}
+
+} // namespace
+
+extern "C" {
+
+std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_hits* hits,
+                               const rw_once_options* options) {
+    return guard([&] {
+        const rw_once_options o = read_optional_struct(options, "options");
+        const rw_query_options query = read_optional_struct(o.query, "options.query");
+        read_hits(hits, read_rays(rays, "rays").count); // a wrong output is told before the work is done
+        intersect_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, hits, &query);
+    });
+}
+
+std::int32_t rw_once_occluded(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_output* answers,
+                              const rw_once_options* options) {
+    return guard([&] {
+        const rw_once_options o = read_optional_struct(options, "options");
+        const rw_query_options query = read_optional_struct(o.query, "options.query");
+        read_output(required(answers, "occluded"), read_rays(rays, "rays").count, 1, OutputKind::flags, "occluded");
+        occluded_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, answers, &query);
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,120 @@
+#include "batch/batch.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace raywise {
+namespace {
+
+// Rays handed to a thread at once. Fewer than this are answered on the caller's thread: waking another costs more.
+constexpr std::uint64_t rays_per_task = 256;
+
+template <class T>
+void store(std::byte* address, T value) {
+    std::memcpy(address, &value, sizeof value); // the caller's arrays need not be aligned
+}
+
+// Runs body(i, ray) for all rays, counts those with a NaN, and notes the time.
+template <class Body>
+std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    std::atomic<std::uint64_t> invalid{0};
+    parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
+        std::uint64_t invalid_here = 0;
+        for (std::uint64_t i = begin; i < end; ++i) {
+            const Ray ray = rays.ray(i);
+            invalid_here += ray.has_nan() ? 1 : 0;
+            body(i, ray);
+        }
+        invalid.fetch_add(invalid_here, std::memory_order_relaxed);
+    });
+    const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+    tracer.usage().rays.fetch_add(rays.count, std::memory_order_relaxed);
+    tracer.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns), std::memory_order_relaxed);
+    return invalid.load();
+}
+
+} // namespace
+
+Ray RayArrays::ray(std::uint64_t i) const {
+    Ray ray;
+    ray.origin = origin.vec3(i);
+    ray.direction = direction.vec3(i);
+    if (tmin.data != nullptr) ray.tmin = tmin.number(i);
+    if (tmax.data != nullptr) ray.tmax = tmax.number(i);
+    return ray;
+}
+
+void OutputArray::put_number(std::uint64_t element, int component, double value) const {
+    std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    if (scalar == Scalar::float32) {
+        store(address, static_cast<float>(value));
+    } else {
+        store(address, value);
+    }
+}
+
+void OutputArray::put_integer(std::uint64_t element, std::uint64_t value) const {
+    std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
+    if (scalar == Scalar::uint8) {
+        store(address, static_cast<std::uint8_t>(value));
+    } else if (scalar == Scalar::uint32) {
+        store(address, static_cast<std::uint32_t>(value));
+    } else {
+        store(address, value);
+    }
+}
+
+void OutputArray::put_id(std::uint64_t element, std::uint32_t id) const {
+    put_integer(element, id == invalid_id ? std::numeric_limits<std::uint64_t>::max() : id);
+}
+
+void HitArrays::put(std::uint64_t element, const Hit& hit) const {
+    if (t.wanted()) t.put_number(element, 0, hit.t);
+    if (uv.wanted()) {
+        uv.put_number(element, 0, hit.u);
+        uv.put_number(element, 1, hit.v);
+    }
+    if (normal.wanted()) {
+        for (int axis = 0; axis < 3; ++axis) normal.put_number(element, axis, hit.normal[axis]);
+    }
+    if (instance.wanted()) instance.put_id(element, hit.instance);
+    if (geometry.wanted()) geometry.put_id(element, hit.geometry);
+    if (primitive.wanted()) primitive.put_id(element, hit.primitive);
+}
+
+std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits, const Parallel& parallel) {
+    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray) { hits.put(i, tracer.closest(ray)); });
+}
+
+std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded, const Parallel& parallel) {
+    return for_each_ray(tracer, rays, parallel,
+                        [&](std::uint64_t i, const Ray& ray) { occluded.put_integer(i, tracer.any(ray) ? 1 : 0); });
+}
+
+std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets, const HitArrays& hits,
+                                  std::uint64_t capacity, std::uint64_t& needed, const Parallel& parallel) {
+    std::vector<std::vector<Hit>> found(rays.count);
+    const std::uint64_t invalid =
+        for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray) { tracer.all(ray, found[i]); });
+    std::uint64_t total = 0;
+    for (std::uint64_t i = 0; i < rays.count; ++i) {
+        offsets[i] = total;
+        total += found[i].size();
+    }
+    offsets[rays.count] = total;
+    needed = total;
+    if (total > capacity) return invalid;
+    parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
+        for (std::uint64_t i = begin; i < end; ++i) {
+            for (std::size_t k = 0; k < found[i].size(); ++k) hits.put(offsets[i] + k, found[i][k]);
+        }
+    });
+    return invalid;
+}
+
+} // namespace raywise

@@ -1,0 +1,165 @@
+#include "scene/explain.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <algorithm>
+
+namespace raywise {
+namespace {
+
+constexpr const char* effort_names[] = {"estimate", "probe", "measure"};
+constexpr const char* rule_names[] = {"smallest_total", "hapala"};
+constexpr const char* kind_names[] = {"any kind", "random", "camera", "shadow", "diffuse"};
+constexpr const char* source_names[] = {"generic", "path", "environment", "user", "system"};
+
+template <class... Arguments>
+std::string format(const char* pattern, Arguments... arguments) {
+    char buffer[256];
+    const int length = std::snprintf(buffer, sizeof buffer, pattern, arguments...);
+    return std::string(buffer, static_cast<std::size_t>(std::clamp<int>(length, 0, sizeof buffer - 1)));
+}
+
+// A duration in the unit that leaves one to three digits before the point; "-" for NaN.
+std::string duration(double ns) {
+    if (std::isnan(ns)) return "-";
+    if (ns < 1e3) return format("%.3g ns", ns);
+    if (ns < 1e6) return format("%.3g us", ns / 1e3);
+    if (ns < 1e9) return format("%.3g ms", ns / 1e6);
+    return format("%.4g s", ns / 1e9);
+}
+
+std::string size(double bytes) {
+    if (bytes < 1024.0) return format("%.0f B", bytes);
+    if (bytes < 1048576.0) return format("%.3g KiB", bytes / 1024.0);
+    if (bytes < 1073741824.0) return format("%.3g MiB", bytes / 1048576.0);
+    return format("%.3g GiB", bytes / 1073741824.0);
+}
+
+// 1234567 as 1,234,567.
+std::string grouped(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
+}
+
+std::string remark(const CandidateReport& candidate) {
+    if (candidate.forced) return "forced";
+    if (candidate.chosen) return "chosen";
+    if (!candidate.figures.applicable) return "not applicable";
+    if (candidate.figures.over_limit) return "over the memory limit";
+    if (std::isinf(candidate.break_even_rays)) return "never better";
+    if (candidate.break_even_rays <= 1.0) return "better at once";
+    if (candidate.break_even_rays >= 1e15) return format("better above %.1e rays", candidate.break_even_rays);
+    return "better above " + grouped(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
+}
+
+nlohmann::ordered_json number(double value) {
+    if (!std::isfinite(value)) return nullptr; // JSON has neither NaN nor infinity
+    return value;
+}
+
+} // namespace
+
+CandidateReport report_candidate(const Plan& plan, const Tracer& tracer, Structure structure) {
+    CandidateReport report;
+    report.structure = structure;
+    report.figures = plan.candidate(structure);
+    report.chosen = structure == plan.chosen;
+    report.forced = report.chosen && plan.forced;
+    if (plan.workload.rays) {
+        report.predicted_total_ns = report.figures.predicted.total_ns(static_cast<double>(*plan.workload.rays));
+    }
+    if (report.chosen) {
+        const std::uint64_t rays = tracer.usage().rays.load(std::memory_order_relaxed);
+        if (rays > 0) {
+            report.figures.actual_ray_ns =
+                static_cast<double>(tracer.usage().batch_ns.load(std::memory_order_relaxed)) / static_cast<double>(rays);
+        }
+    } else {
+        report.break_even_rays = break_even_rays(plan.candidate(plan.chosen).predicted, report.figures.predicted);
+    }
+    return report;
+}
+
+std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& profile) {
+    std::string text;
+    text += "scene: " + grouped(tracer.primitives().count()) + " triangles, ";
+    text += plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
+    text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
+                   effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
+    text += format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
+    text += profile.status == Status::OK ? std::string("\n") : " (" + profile.reason + ")\n";
+    if (plan.hapala) {
+        text += format("Hapala: kd-tree predicted %s to build, %s a ray; critical number of rays %.3g: %s\n",
+                       duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),
+                       plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
+    }
+    text += format("  %-14s %9s %9s %6s %9s %9s  %9s %9s  %s\n", "structure", "build", "per ray", "+/-", "bytes", "total", "build*",
+                   "per ray*", "");
+    for (const Structure structure : all_structures()) {
+        const CandidateReport candidate = report_candidate(plan, tracer, structure);
+        const PlannedCandidate& figures = candidate.figures;
+        text += format("%c %-14s %9s %9s %5.0f%% %9s %9s  %9s %9s  ", candidate.chosen ? '>' : ' ', name_of(structure),
+                       duration(figures.predicted.build_ns).c_str(), duration(figures.predicted.ray_ns).c_str(),
+                       100.0 * figures.predicted.error,
+                       size(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes).c_str(),
+                       duration(candidate.predicted_total_ns).c_str(), duration(figures.actual_build_ns).c_str(),
+                       duration(figures.actual_ray_ns).c_str());
+        text += remark(candidate) + "\n";
+    }
+    const std::uint64_t rays = tracer.usage().rays.load(std::memory_order_relaxed);
+    text += "* actual; per ray: wall time of " + (rays > 0 ? grouped(rays) + " rays in batches so far" : std::string("the sample")) +
+            "; deciding took " + duration(plan.decide_ns) + "\n";
+    return text;
+}
+
+std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& profile) {
+    using Json = nlohmann::ordered_json;
+    Json json;
+    json["triangles"] = tracer.primitives().count();
+    json["hittable_triangles"] = tracer.primitives().hittable_count();
+    json["expected_rays"] = plan.workload.rays ? Json(*plan.workload.rays) : Json(nullptr);
+    json["ray_kind"] = kind_names[static_cast<int>(plan.workload.kind)];
+    json["effort"] = effort_names[static_cast<int>(plan.effort)];
+    json["rule"] = rule_names[static_cast<int>(plan.rule)];
+    json["calibration"] = {{"source", source_names[static_cast<int>(profile.source)]},
+                           {"path", profile.path},
+                           {"date", profile.provenance.date},
+                           {"status", static_cast<int>(profile.status)},
+                           {"reason", profile.reason}};
+    if (plan.hapala) {
+        json["hapala"] = {{"tree_build_ns", number(plan.hapala->tree_build_ns)},
+                          {"tree_ray_ns", number(plan.hapala->tree_ray_ns)},
+                          {"critical_rays", number(plan.hapala->critical_rays)},
+                          {"keep_grid", plan.hapala->keep_grid}};
+    }
+    json["chosen"] = name_of(plan.chosen);
+    json["forced"] = plan.forced;
+    json["decide_ns"] = number(plan.decide_ns);
+    json["candidates"] = Json::array();
+    for (const Structure structure : all_structures()) {
+        const CandidateReport candidate = report_candidate(plan, tracer, structure);
+        const PlannedCandidate& figures = candidate.figures;
+        json["candidates"].push_back({{"structure", name_of(structure)},
+                                      {"chosen", candidate.chosen},
+                                      {"applicable", figures.applicable},
+                                      {"over_limit", figures.over_limit},
+                                      {"measured", figures.measured},
+                                      {"predicted_build_ns", number(figures.predicted.build_ns)},
+                                      {"predicted_ray_ns", number(figures.predicted.ray_ns)},
+                                      {"predicted_error", number(figures.predicted.error)},
+                                      {"predicted_bytes", number(figures.predicted.bytes)},
+                                      {"predicted_total_ns", number(candidate.predicted_total_ns)},
+                                      {"break_even_rays", number(candidate.break_even_rays)},
+                                      {"actual_build_ns", number(figures.actual_build_ns)},
+                                      {"actual_ray_ns", number(figures.actual_ray_ns)},
+                                      {"actual_bytes", figures.actual_bytes != 0 ? Json(figures.actual_bytes) : Json(nullptr)}});
+    }
+    json["rays"] = tracer.usage().rays.load(std::memory_order_relaxed);
+    json["invalid_rays"] = tracer.usage().invalid_rays.load(std::memory_order_relaxed);
+    return json.dump(2) + "\n";
+}
+
+} // namespace raywise

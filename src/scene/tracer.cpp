@@ -1,0 +1,44 @@
+#include "scene/tracer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace raywise {
+
+Tracer::Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel)
+    : primitives_(std::move(primitives)), accel_(std::move(accel)), usage_(std::make_unique<Usage>()) {}
+
+bool Tracer::is_traceable(const Ray& ray) const {
+    if (PreparedRay::is_traceable(ray)) return primitives_->hittable_count() > 0;
+    if (ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+    return false;
+}
+
+Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit) const {
+    const PrimitiveId id = primitives_->locate(hit.primitive);
+    return {ray.to_caller(hit.t), hit.u, hit.v, primitives_->normal(hit.primitive), invalid_id, id.geometry, id.primitive};
+}
+
+Hit Tracer::closest(const Ray& ray) const {
+    if (!is_traceable(ray)) return {};
+    const PreparedRay prepared(ray, primitives_->bounds());
+    const PrimitiveHit hit = accel_->closest(prepared);
+    return hit.is_hit() ? to_caller(prepared, hit) : Hit{};
+}
+
+bool Tracer::any(const Ray& ray) const {
+    return is_traceable(ray) && accel_->any(PreparedRay(ray, primitives_->bounds()));
+}
+
+void Tracer::all(const Ray& ray, std::vector<Hit>& hits) const {
+    hits.clear();
+    if (!is_traceable(ray)) return;
+    const PreparedRay prepared(ray, primitives_->bounds());
+    std::vector<PrimitiveHit> found;
+    accel_->all(prepared, found);
+    std::sort(found.begin(), found.end());
+    hits.reserve(found.size());
+    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(prepared, hit));
+}
+
+} // namespace raywise

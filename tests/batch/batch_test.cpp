@@ -1,0 +1,125 @@
+#include "batch/batch.h"
+
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace raywise {
+namespace {
+
+using namespace testing;
+
+// Answers in the layout of the double precision outputs, one struct per ray.
+struct Record {
+    double t, uv[2], normal[3];
+    std::uint32_t instance, geometry, primitive, filler;
+};
+
+HitArrays outputs(std::vector<Record>& records) {
+    const auto field = [&](auto Record::*member, Scalar scalar) {
+        return OutputArray{reinterpret_cast<std::byte*>(&(records.data()->*member)), sizeof(Record),
+                           static_cast<std::ptrdiff_t>(size_of(scalar)), scalar};
+    };
+    return {field(&Record::t, Scalar::float64),       field(&Record::uv, Scalar::float64),
+            field(&Record::normal, Scalar::float64),  field(&Record::instance, Scalar::uint32),
+            field(&Record::geometry, Scalar::uint32), field(&Record::primitive, Scalar::uint32)};
+}
+
+RayArrays inputs(const std::vector<Ray>& rays) {
+    const auto field = [&](auto Ray::*member) {
+        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8, Scalar::float64};
+    };
+    return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax)};
+}
+
+std::shared_ptr<Scene> scene() {
+    static const auto shared = make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()));
+    return shared;
+}
+
+std::vector<Ray> rays_with_faults(std::size_t count) {
+    std::vector<Ray> rays = make_chords(count);
+    for (std::size_t i = 0; i < rays.size(); i += 10) rays[i].origin.y = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 5; i < rays.size(); i += 10) rays[i].direction = Vec3(0.0);
+    return rays;
+}
+
+TEST(Batch, GivesTheBitsOfSingleRaysOnAnyNumberOfThreads) {
+    const std::vector<Ray> rays = rays_with_faults(3000);
+    for (const unsigned threads : {1u, 2u, 5u}) {
+        std::vector<Record> records(rays.size());
+        EXPECT_EQ(intersect_batch(scene()->tracer(), inputs(rays), outputs(records), Parallel(threads)), 300u);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Hit hit = scene()->tracer().closest(rays[i]);
+            const Record& r = records[i];
+            const Hit got{r.t, r.uv[0], r.uv[1], {r.normal[0], r.normal[1], r.normal[2]}, r.instance, r.geometry, r.primitive};
+            ASSERT_TRUE(same_bits(hit, got)) << i;
+        }
+    }
+}
+
+TEST(Batch, WritesNothingBeyondItsElements) {
+    const std::vector<Ray> rays = make_chords(100);
+    std::vector<Record> records(102, Record{-7, {-7, -7}, {-7, -7, -7}, 7, 7, 7, 7});
+    HitArrays out = outputs(records);
+    for (OutputArray* field : {&out.t, &out.uv, &out.normal, &out.instance, &out.geometry, &out.primitive}) field->data += sizeof(Record);
+    intersect_batch(scene()->tracer(), inputs(rays), out, Parallel(2));
+    for (const Record& r : {records.front(), records.back()}) {
+        EXPECT_EQ(r.t, -7);
+        EXPECT_EQ(r.primitive, 7u);
+    }
+    for (const Record& r : records) EXPECT_EQ(r.filler, 7u);
+}
+
+TEST(Batch, ConvertsToTheOutputsTypes) {
+    const std::vector<Ray> rays = make_chords(200);
+    std::vector<float> t(rays.size());
+    std::vector<std::uint64_t> primitive(rays.size());
+    HitArrays out;
+    out.t = {reinterpret_cast<std::byte*>(t.data()), 4, 4, Scalar::float32};
+    out.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 8, 8, Scalar::uint64};
+    intersect_batch(scene()->tracer(), inputs(rays), out, Parallel(1));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit hit = scene()->tracer().closest(rays[i]);
+        EXPECT_EQ(t[i], static_cast<float>(hit.t));
+        EXPECT_EQ(primitive[i], hit.primitive == invalid_id ? std::numeric_limits<std::uint64_t>::max() : hit.primitive);
+    }
+}
+
+TEST(Batch, FindsAllHitsInOrder) {
+    const std::vector<Ray> rays = rays_with_faults(300);
+    std::vector<std::uint64_t> offsets(rays.size() + 1);
+    std::uint64_t needed = 0;
+    intersect_all_batch(scene()->tracer(), inputs(rays), offsets.data(), {}, 0, needed, Parallel(2));
+    ASSERT_GT(needed, 0u);
+    EXPECT_EQ(offsets.back(), needed);
+    std::vector<Record> records(needed);
+    intersect_all_batch(scene()->tracer(), inputs(rays), offsets.data(), outputs(records), needed, needed, Parallel(2));
+    std::vector<Hit> expected;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        scene()->tracer().all(rays[i], expected);
+        ASSERT_EQ(offsets[i + 1] - offsets[i], expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            EXPECT_EQ(records[offsets[i] + k].t, expected[k].t);
+            EXPECT_EQ(records[offsets[i] + k].primitive, expected[k].primitive);
+            if (k > 0) {
+                EXPECT_LE(expected[k - 1].t, expected[k].t);
+            }
+        }
+    }
+}
+
+TEST(Batch, OfNoRaysIsNoTrouble) {
+    std::vector<std::uint64_t> offsets(1, 99);
+    std::uint64_t needed = 99;
+    EXPECT_EQ(intersect_batch(scene()->tracer(), {}, {}, Parallel(2)), 0u);
+    intersect_all_batch(scene()->tracer(), {}, offsets.data(), {}, 0, needed, Parallel(2));
+    EXPECT_EQ(needed, 0u);
+    EXPECT_EQ(offsets[0], 0u);
+}
+
+} // namespace
+} // namespace raywise

@@ -1,0 +1,139 @@
+#include "scene/scene.h"
+
+#include "scene/testing.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace raywise {
+namespace {
+
+using namespace testing;
+
+std::shared_ptr<const Profile> generic() { return std::make_shared<const Profile>(generic_profile()); }
+
+Status status_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.status();
+    }
+    return Status::OK;
+}
+
+TEST(Scene, CannotBeAskedBeforeTheCommitNorChangedAfterIt) {
+    const Soup soup = make_soup(10);
+    Scene scene(generic());
+    EXPECT_EQ(status_of([&] { scene.tracer(); }), Status::ERROR_NOT_COMMITTED);
+    EXPECT_EQ(status_of([&] { scene.plan(); }), Status::ERROR_NOT_COMMITTED);
+    scene.add_triangles(soup.arrays(), true, false);
+    Progress progress;
+    scene.commit(Parallel(1), progress);
+    EXPECT_TRUE(scene.is_committed());
+    EXPECT_EQ(status_of([&] { scene.add_triangles(soup.arrays(), true, false); }), Status::ERROR_ALREADY_COMMITTED);
+    EXPECT_EQ(status_of([&] { scene.set_memory_limit(1); }), Status::ERROR_ALREADY_COMMITTED);
+    EXPECT_EQ(status_of([&] { scene.commit(Parallel(1), progress); }), Status::ERROR_ALREADY_COMMITTED);
+}
+
+TEST(Scene, StaysAsItWasWhenAMeshIsRefused) {
+    const Soup soup = make_soup(10);
+    Soup bad = make_soup(10);
+    bad.vertices[40] = std::numeric_limits<float>::quiet_NaN();
+    Scene scene(generic());
+    EXPECT_EQ(scene.add_triangles(soup.arrays(), true, false), 0u);
+    EXPECT_EQ(status_of([&] { scene.add_triangles(bad.arrays(), true, false); }), Status::ERROR_NOT_FINITE);
+    EXPECT_EQ(scene.add_triangles(soup.arrays(), true, false), 1u);
+    Progress progress;
+    scene.commit(Parallel(1), progress);
+    EXPECT_EQ(scene.tracer().primitives().count(), 20u);
+}
+
+TEST(Scene, CanBeCommittedAgainAfterACancelledCommit) {
+    const Soup soup = make_soup(2000);
+    for (const Structure structure : all_structures()) {
+        Scene scene(generic());
+        scene.add_triangles(soup.arrays(), true, false);
+        scene.set_structure(structure);
+        Progress stop([](double, const char*) { return true; });
+        EXPECT_EQ(status_of([&] { scene.commit(Parallel(2), stop); }), Status::ERROR_CANCELLED) << name_of(structure);
+        EXPECT_FALSE(scene.is_committed());
+        Progress go;
+        scene.commit(Parallel(2), go);
+        EXPECT_EQ(scene.plan().chosen, structure);
+    }
+}
+
+TEST(Scene, ReportsProgressThatNeverGoesBeyondItsEnds) {
+    const Soup soup = make_soup(5000);
+    for (const Structure structure : all_structures()) {
+        double last = -1.0;
+        Progress progress([&](double fraction, const char* stage) {
+            EXPECT_GE(fraction, 0.0);
+            EXPECT_LE(fraction, 1.0);
+            EXPECT_NE(stage, nullptr);
+            last = fraction;
+            return false;
+        });
+        Scene scene(generic());
+        scene.add_triangles(soup.arrays(), true, false);
+        scene.set_structure(structure);
+        scene.commit(Parallel(2), progress);
+        EXPECT_EQ(last, 1.0);
+    }
+}
+
+TEST(Scene, WithoutTrianglesMissesEverything) {
+    for (const Structure structure : all_structures()) {
+        Scene scene(generic());
+        scene.set_structure(structure);
+        Progress progress;
+        scene.commit(Parallel(1), progress);
+        for (const Ray& ray : make_chords(20)) {
+            EXPECT_EQ(scene.tracer().closest(ray).primitive, invalid_id);
+            EXPECT_FALSE(scene.tracer().any(ray));
+        }
+        EXPECT_TRUE(scene.tracer().primitives().bounds().empty());
+    }
+}
+
+TEST(Scene, CountsRaysWithANan) {
+    const auto scene = make_scene(make_soup(10), generic());
+    Ray ray;
+    ray.direction = {0, 0, 1};
+    ray.origin.x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(scene->tracer().closest(ray).primitive, invalid_id);
+    EXPECT_FALSE(scene->tracer().any(ray));
+    EXPECT_EQ(scene->tracer().usage().invalid_rays.load(), 2u);
+}
+
+TEST(Scene, NamesMeshAndTriangleOfAHit) {
+    const Soup soup = make_soup(50, 1);
+    const Soup other = make_soup(70, 2);
+    Scene scene(generic());
+    scene.add_triangles(soup.arrays(), true, false);
+    scene.add_triangles(other.arrays(), true, false);
+    Progress progress;
+    scene.commit(Parallel(1), progress);
+    int from_each[2] = {0, 0};
+    for (const Ray& ray : make_chords(2000)) {
+        const Hit hit = scene.tracer().closest(ray);
+        if (hit.primitive == invalid_id) continue;
+        ASSERT_LT(hit.geometry, 2u);
+        ASSERT_LT(hit.primitive, hit.geometry == 0 ? 50u : 70u);
+        ++from_each[hit.geometry];
+        const float* v = (hit.geometry == 0 ? soup : other).vertices.data() + 9 * hit.primitive;
+        const Vec3 a(v[0], v[1], v[2]), b(v[3], v[4], v[5]), c(v[6], v[7], v[8]);
+        const Vec3 on_triangle = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
+        const Vec3 on_ray = ray.origin + hit.t * ray.direction;
+        EXPECT_LT(glm::length(on_triangle - on_ray), 1e-12);
+        EXPECT_NEAR(glm::length(hit.normal), 1.0, 1e-14);
+        EXPECT_NEAR(glm::dot(hit.normal, b - a), 0.0, 1e-7);
+        EXPECT_GT(glm::dot(hit.normal, glm::cross(b - a, c - a)), 0.0);
+    }
+    EXPECT_GT(from_each[0], 0);
+    EXPECT_GT(from_each[1], 0);
+}
+
+} // namespace
+} // namespace raywise
