@@ -389,7 +389,7 @@ RW_API int32_t rw_scene_add_triangles(rw_scene *scene, const rw_triangles *trian
 typedef struct rw_expected_rays {
     uint32_t struct_size;
     int32_t kind;          /* RW_RAYS_ kind */
-    uint64_t count;        /* 1 ... RW_RAYS_LIMIT, or RW_RAYS_UNKNOWN */
+    uint64_t count;        /* 1 ... RW_RAYS_LIMIT, or RW_RAYS_UNKNOWN; 0 is an error, so that a forgotten count shows */
     const rw_rays *sample; /* some of the caller's rays, for RW_EFFORT_PROBE and RW_EFFORT_MEASURE and RW_RULE_HAPALA;
                               copied, at most the first 1,000; NULL: rays of that kind are made up */
 } rw_expected_rays;
@@ -428,7 +428,7 @@ RW_API int32_t rw_scene_set_structure(rw_scene *scene, const char *name);
 RW_API int32_t rw_scene_set_effort(rw_scene *scene, int32_t effort, int32_t rule, double time_limit_seconds);
 
 /* A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It may be called from
- * any of the threads at work, never from two at once. */
+ * any of the threads at work, never from two at once; at least once per commit and per view. */
 typedef int32_t (*rw_progress)(void *user, double fraction, const char *stage);
 
 typedef struct rw_commit_options {
@@ -522,7 +522,8 @@ RW_API int32_t rw_scene_occluded(const rw_scene *scene, const rw_ray *ray, int32
 RW_API int32_t rw_scene_intersect_all(const rw_scene *scene, const rw_ray *ray, rw_hit *hits, uint64_t capacity, uint64_t *needed);
 
 /* Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
- * rays: struct_size set; not NULL. hits: struct_size set; not NULL; outputs may not overlap the rays.
+ * rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
+ * the rays, which is not checked.
  * options: struct_size set; NULL: the defaults.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
  * RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
@@ -601,7 +602,7 @@ typedef struct rw_view_options {
                               all zero: all around, a cube of six planes */
     double half_angle;     /* RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, below pi/2;
                               0: pi/4. Rays outside are answered as by the scene. */
-    uint64_t count;        /* expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN */
+    uint64_t count;        /* expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error */
     int32_t ray_kind;      /* RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera */
     int32_t reserved;      /* 0 */
     const char *structure; /* forces a structure by name; NULL: the library chooses, the scene's own one included */
