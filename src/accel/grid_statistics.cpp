@@ -6,7 +6,8 @@
 
 namespace raywise {
 
-GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution, const std::vector<std::uint32_t>& offsets) {
+GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution,
+                               const std::vector<std::uint32_t>& offsets) {
     GridStatistics result;
     if (offsets.size() < 2) return result;
     result.resolution = resolution;

@@ -24,6 +24,7 @@ struct GridStatistics {
 };
 
 // offsets: where the references of each cell begin, and the end of the last cell's; cells + 1 numbers, or none.
-GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution, const std::vector<std::uint32_t>& offsets);
+GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution,
+                               const std::vector<std::uint32_t>& offsets);
 
 } // namespace raywise

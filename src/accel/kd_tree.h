@@ -1,17 +1,18 @@
-// The kd-tree: planes that part space in two, over and over, with the primitives of each part in the leaves (Bentley 1975;
-// KdTreeAccel in Chuang's lecture "Acceleration"). How it is built: kd_tree_build.h.
+// The kd-tree: planes that part space in two, over and over, with the primitives of each part in the leaves (Bentley
+// 1975; KdTreeAccel in Chuang's lecture "Acceleration"). How it is built: kd_tree_build.h.
 //
-// Why the walk cannot lose a hit. Let P be the point where the exact ray meets a primitive, at the exact distance t. The builder
-// sees to it that, from the root down, the primitive is always on a side of the plane that P belongs to; points on the plane
-// belong to both. That leads to one leaf. The walk reaches it, because at every node on the way t lies within its interval
-// [near, far] but for margin / 8:
-// - near and far each come from one distance, (plane - origin) * inverse with one rounding each, to a plane of a node or a
-//   face of the bounds (or from tmin and tmax, or the best hit so far, which are accurate to margin / 8 too). Its relative error
-//   is below 4 * 2^-53, and as P is within the bounds, |t| is at most the ray's distance from the bounds, R: up to 2 R the error is
-//   nothing against the margin, 2^-34 * R, and beyond 2 R it cannot move a plane across t.
+// Why the walk cannot lose a hit. Let P be the point where the exact ray meets a primitive, at the exact distance t.
+// The builder sees to it that, from the root down, the primitive is always on a side of the plane that P belongs to;
+// points on the plane belong to both. That leads to one leaf. The walk reaches it, because at every node on the way t
+// lies within its interval [near, far] but for margin / 8:
+// - near and far each come from one distance, (plane - origin) * inverse with one rounding each, to a plane of a node
+//   or a face of the bounds (or from tmin and tmax, or the best hit so far, which are accurate to margin / 8 too).
+//   Its relative error is below 4 * 2^-53, and as P is within the bounds, |t| is at most the ray's distance from the
+//   bounds, R: up to 2 R the error is nothing against the margin, 2^-34 * R, and beyond 2 R it cannot move a plane
+//   across t.
 // - A child is left out only when its plane is beyond the interval's end by the whole margin.
-// Along an axis without movement the distance is infinite, on the right side by its sign, or not a number when the origin
-// lies in the plane, and then no comparison holds and both children are visited.
+// Along an axis without movement the distance is infinite, on the right side by its sign, or not a number when the
+// origin lies in the plane, and then no comparison holds and both children are visited.
 #pragma once
 
 #include "accel/kd_tree_build.h"
@@ -47,7 +48,10 @@ private:
 
 template <class Visitor>
 void KdTree::traverse(const PreparedRay& ray, Visitor& visitor) const {
-    if (tree_.nodes.empty()) return;
+    if (tree_.nodes.empty()) {
+        if (tree_.too_large) traverse_all(visitor);
+        return;
+    }
     std::array<std::uint32_t, 3> nearer; // which child the ray meets first
     for (int axis = 0; axis < 3; ++axis) {
         nearer[static_cast<std::size_t>(axis)] = std::signbit(ray.inverse[axis]) ? 1u : 0u;

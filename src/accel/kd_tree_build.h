@@ -1,5 +1,5 @@
-// Builds the kd-tree: surface area heuristic over sorted events in O(N log N) (Wald and Havran 2006, "On Building Fast kd-Trees for
-// Ray Tracing, and on Doing That in O(N log N)", section 4.3), with clipped triangles.
+// Builds the kd-tree: surface area heuristic over sorted events in O(N log N) (Wald and Havran 2006, "On Building
+// Fast kd-Trees for Ray Tracing, and on Doing That in O(N log N)", section 4.3), with clipped triangles.
 #pragma once
 
 #include "accel/accel.h"
@@ -52,8 +52,11 @@ static_assert(sizeof(KdNode) == 8);
 struct KdTreeData {
     std::vector<KdNode> nodes; // the root is the first; empty without hittable primitives
     std::vector<std::uint32_t> references;
-    // Planes lie at plane_base + split, rounded to double: the same number in the builder and in every ray's walk. The
-    // base is zero unless the scene is far from the origin compared with its size, where a float alone would be too coarse.
+    // More nodes than their 30-bit links can tell apart: no tree, rays test all primitives; slower, never different.
+    bool too_large = false;
+    // Planes lie at plane_base + split, rounded to double: the same number in the builder and in every ray's walk.
+    // The base is zero unless the scene is far from the origin compared with its size, where a float alone would be
+    // too coarse.
     Vec3 plane_base{0.0};
 
     static double plane(double base, float split) { return base + static_cast<double>(split); }

@@ -72,6 +72,7 @@ private:
             tree_.center[i] = std::isfinite(middle) ? middle : 0.0;
         }
         tree_.depth_center = 0.5 * root_.near + 0.5 * root_.far;
+        tree_.widest_ray = 0.0625 * std::max(root_.upper.x - root_.lower.x, root_.upper.y - root_.lower.y);
     }
 
     // The next node on the way down that has triangles on the plane in it: itself, when it is a leaf or both its children have.
@@ -180,8 +181,12 @@ const PlaneTree* ProjectedBvh::find_plane(const PreparedRay& ray, PlaneRay& plan
     const auto plane = static_cast<std::size_t>(view_.choose(ray));
     ProjectedRay projected;
     if (!view_.planes()[plane].project(ray, projected)) return nullptr;
-    plane_ray = PlaneRay(ray, projected, trees_[plane]);
-    return &trees_[plane];
+    const PlaneTree& tree = trees_[plane];
+    if (tree.empty) return &tree;
+    const Vec2 size = projected.upper - projected.lower;
+    if (!(std::max(size.x, size.y) <= tree.widest_ray)) return nullptr;
+    plane_ray = PlaneRay(ray, projected, tree);
+    return &tree;
 }
 
 } // namespace raywise

@@ -18,6 +18,10 @@
 #include <cstdint>
 #include <vector>
 
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
 namespace raywise {
 
 // What is tested at a node (thesis 3.3.2).
@@ -26,6 +30,21 @@ enum class ProjectionScheme {
     boxes,      // "3D": what is left is the view-independent tree
     combined,   // the rectangle, then the box
 };
+
+// The fastest of the three. Stanford bunny (69,451 triangles), one thread of an AMD EPYC (Zen 4), g++ 12 -O3, ns per ray for
+// rectangles / combined / boxes: camera rays 139 / 183 / 171, shadow rays to a point light (any hit) 335 / 425 / 494, to the
+// sun 325 / 402 / 494. The boxes rid a ray of one triangle test in eight, and cost more than that: with leaves bounded
+// on the plane the rectangles are tight (the thesis, 6.3.4, found combined better where they are loose).
+inline constexpr ProjectionScheme default_projection_scheme = ProjectionScheme::rectangles;
+
+// Whether no a[i] is above b[i], of four. SSE, where there is (any x86-64): a tenth off the time of a ray.
+inline bool none_above(const float* a, const float* b) {
+#if defined(__SSE__)
+    return _mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(a), _mm_loadu_ps(b))) == 0xF;
+#else
+    return (a[0] <= b[0]) & (a[1] <= b[1]) & (a[2] <= b[2]) & (a[3] <= b[3]);
+#endif
+}
 
 // 32 bytes.
 struct PlaneNode {
@@ -50,6 +69,7 @@ struct PlaneTree {
     Vec2 center{0.0};
     double depth_center = 0.0;
     bool empty = true;
+    double widest_ray = 0.0; // a wider rectangle would meet so many others that the ray had better take the 3D tree
     PlaneNode root{};
     std::vector<PlanePair> pairs;
     std::vector<std::uint32_t> boxes; // for each node of pairs its node in the 3D tree: 2 * pair + child; combined scheme only
@@ -75,9 +95,7 @@ public:
 
     bool overlaps_depth(const PlaneNode& node) const { return node.near <= far_ && node.far >= near_; }
     bool overlaps(const PlaneNode& node) const {
-        const bool inside = (node.sides[0] <= sides_[0]) & (node.sides[1] <= sides_[1]) & (node.sides[2] <= sides_[2]) &
-                            (node.sides[3] <= sides_[3]);
-        return (inside || node.near <= cut_) && overlaps_depth(node);
+        return (none_above(node.sides, sides_) || node.near <= cut_) && overlaps_depth(node);
     }
 
     bool is_forward() const { return rate_ > 0.0; }
@@ -95,7 +113,7 @@ private:
 
 class ProjectedBvh final : public TraversedAccel<ProjectedBvh> {
 public:
-    explicit ProjectedBvh(const BuildInput& input, ProjectionScheme scheme = ProjectionScheme::rectangles);
+    explicit ProjectedBvh(const BuildInput& input, ProjectionScheme scheme = default_projection_scheme);
 
     std::size_t bytes() const override;
 

@@ -1,14 +1,19 @@
 // Which cells of a grid of unit cubes a triangle overlaps.
 //
-// Everything is in grid coordinates: cell (i, j, k) is the cube from (i, j, k) to (i + 1, j + 1, k + 1). The answer is exact up
-// to `overlap_slack`: every cell that the triangle comes nearer to than half of it is named, and none that it stays further away from
-// than one and a half. The slack is what lets a traversal with rounded distances find every primitive (uniform_grid.h);
-// it is larger than any rounding here by a factor of more than 2^10 while a grid has fewer than 2^24 cells along an axis.
+// Everything is in grid coordinates: cell (i, j, k) is the cube from (i, j, k) to (i + 1, j + 1, k + 1). The answer
+// is exact up to `overlap_slack`: every cell that the triangle comes nearer to than half of it is named, and none
+// that it stays further away from than one and a half. The slack is what lets a traversal with rounded distances find
+// every primitive (uniform_grid.h); it is larger than any rounding here by a factor of more than 2^10 while a grid
+// has fewer than 2^24 cells along an axis.
 #pragma once
 
+#include "base/box.h"
 #include "geometry/triangle_mesh.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace raywise {
@@ -29,16 +34,19 @@ struct CellRange {
 // The cells that the triangle's bounding box overlaps, within a grid of that resolution.
 CellRange bounding_cells(const Corners& triangle, const std::array<std::uint32_t, 3>& resolution);
 
-// The separating axis test of Akenine-Moller 2001, "Fast 3D Triangle-Box Overlap Testing", for one triangle against many
-// cells: a projection of the triangle and of the unit cube onto an axis does not change from cell to cell, so what
-// is left for each cell is a dot product between two bounds (as in Schwarz and Seidel 2010, "Fast Parallel Surface and Solid
-// Voxelization on GPUs"). The box's own axes are left out: ask about cells within bounding_cells only.
+// The separating axis test of Akenine-Moller 2001, "Fast 3D Triangle-Box Overlap Testing", for one triangle against
+// many cells: a projection of the triangle and of the unit cube onto an axis does not change from cell to cell, so
+// what is left for each cell is a dot product between two bounds (as in Schwarz and Seidel 2010, "Fast Parallel
+// Surface and Solid Voxelization on GPUs"). The box's own axes are left out: ask about cells within bounding_cells
+// only.
 class TriangleCellTest {
 public:
-    // base: a cell near the triangle; cells are named by their distance from it.
-    TriangleCellTest(const Corners& triangle, const std::array<std::int32_t, 3>& base);
+    // base: a cell near the triangle; cells are named by their distance from it. flat_axis: an axis along which the
+    // triangle is within one cell, so that overlaps_in_plane() across that axis is all there is to ask; -1 when there
+    // is none.
+    TriangleCellTest(const Corners& triangle, const std::array<std::int32_t, 3>& base, int flat_axis = -1);
 
-    // Along an axis of the plane (axis, axis + 1) only: exact when the triangle lies within one cell along the third axis.
+    // x and y: the cell's place along the two axes that follow the normal's.
     bool overlaps_in_plane(int normal_axis, double x, double y) const {
         bool inside = true;
         for (const Slab2& slab : edges_[static_cast<std::size_t>(normal_axis)]) {
@@ -71,6 +79,11 @@ private:
     double plane_upper_;
 };
 
+struct SideBoxes {
+    Box below;
+    Box above;
+};
+
 // A convex polygon, the part of a triangle within some slabs.
 class ClippedTriangle {
 public:
@@ -78,8 +91,9 @@ public:
         for (std::size_t i = 0; i < 3; ++i) points_[i] = triangle[i];
     }
 
-    // Keeps what lies between lower and upper along the axis (Sutherland and Hodgman 1974). A new corner lies on its edge but
-    // for rounding of a few units in the last place of the edge's ends, however flat the angle between edge and plane.
+    // Keeps what lies between lower and upper along the axis (Sutherland and Hodgman 1974). A new corner lies on its
+    // edge but for rounding of a few units in the last place of the edge's ends, however flat the angle between edge
+    // and plane.
     void clip(int axis, double lower, double upper) {
         cut(axis, lower, 1.0);
         cut(axis, upper, -1.0);
@@ -88,17 +102,23 @@ public:
     bool empty() const { return count_ == 0; }
     // Lowest and highest coordinate along an axis; not of an empty polygon.
     std::array<double, 2> extent(int axis) const;
+    // The boxes of what lies up to `below_to` along the axis, and of what lies from `above_from` on.
+    SideBoxes boxes_of_sides(int axis, double below_to, double above_from) const;
 
 private:
+    // Where the line from a to b, on different sides, is at `position`.
+    static Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double position);
+
     // Keeps the points with sign * (point - position) >= 0.
     void cut(int axis, double position, double sign);
 
-    // Each cut adds at most one corner; four cuts are made here, six and a split by the kd-tree's builder.
-    std::array<Vec3, 12> points_;
+    // Each cut adds at most one corner; the kd-tree's builder makes six.
+    std::array<Vec3, 9> points_;
     std::size_t count_;
 };
 
-// Calls emit(i, j, k) once for each cell of the range that the triangle overlaps; range: bounding_cells of the triangle.
+// Calls emit(i, j, k) once for each cell of the range that the triangle overlaps; range: bounding_cells of the
+// triangle.
 template <class Emit>
 void for_each_overlapped_cell(const Corners& triangle, const CellRange& range, Emit&& emit);
 
@@ -108,8 +128,8 @@ namespace triangle_box_overlap_detail {
 // number of rows; below, testing each cell is quicker.
 constexpr std::int64_t most_cells_to_test = 32;
 
-// Slices the triangle along one axis, the slices along the next; what remains of a row's triangle is convex, so it overlaps a run
-// of cells without a gap.
+// Slices the triangle along one axis, the slices along the next; what remains of a row's triangle is convex, so it
+// overlaps a run of cells without a gap.
 template <class Emit>
 void emit_by_rows(const Corners& triangle, const CellRange& range, Emit&& emit) {
     // Runs along the axis the triangle is the most parallel to are the longest.
@@ -125,7 +145,8 @@ void emit_by_rows(const Corners& triangle, const CellRange& range, Emit&& emit) 
             static_cast<std::int32_t>(std::min<double>(range.upper[a], std::floor(extent[1] + overlap_slack)))};
     };
     std::array<std::int32_t, 3> cell;
-    for (std::int32_t s = range.lower[static_cast<std::size_t>(slab)]; s <= range.upper[static_cast<std::size_t>(slab)]; ++s) {
+    for (std::int32_t s = range.lower[static_cast<std::size_t>(slab)]; s <= range.upper[static_cast<std::size_t>(slab)];
+         ++s) {
         ClippedTriangle slice(triangle);
         slice.clip(slab, s - overlap_slack, s + 1.0 + overlap_slack);
         if (slice.empty()) continue;
@@ -168,8 +189,8 @@ void for_each_overlapped_cell(const Corners& triangle, const CellRange& range, E
         emit_by_rows(triangle, range, emit);
         return;
     }
-    const TriangleCellTest test(triangle, lower);
-    const int flat = extent[0] == 1 ? 0 : extent[1] == 1 ? 1 : 2;
+    const int flat = extent[0] == 1 ? 0 : extent[1] == 1 ? 1 : extent[2] == 1 ? 2 : -1;
+    const TriangleCellTest test(triangle, lower, flat);
     std::array<double, 3> at;
     for (std::int32_t k = lower[2]; k <= upper[2]; ++k) {
         at[2] = k - lower[2];
@@ -177,10 +198,10 @@ void for_each_overlapped_cell(const Corners& triangle, const CellRange& range, E
             at[1] = j - lower[1];
             for (std::int32_t i = lower[0]; i <= upper[0]; ++i) {
                 at[0] = i - lower[0];
-                const bool overlaps =
-                    wide == 3 ? test.overlaps(at)
-                              : test.overlaps_in_plane(flat, at[static_cast<std::size_t>((flat + 1) % 3)],
-                                                       at[static_cast<std::size_t>((flat + 2) % 3)]);
+                const bool overlaps = flat < 0
+                                          ? test.overlaps(at)
+                                          : test.overlaps_in_plane(flat, at[static_cast<std::size_t>((flat + 1) % 3)],
+                                                                   at[static_cast<std::size_t>((flat + 2) % 3)]);
                 if (overlaps) emit(i, j, k);
             }
         }

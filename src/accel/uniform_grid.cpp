@@ -14,8 +14,8 @@ constexpr std::uint32_t primitives_per_block = 1u << 14;
 
 // Cells are numbered, and references counted, in 32 bits.
 constexpr double most_cells = 0x1p30;
-// References beyond this many per primitive coarsen the grid: large primitives that overlap each other, for which smaller
-// cells gain little.
+// References beyond this many per primitive coarsen the grid: large primitives that overlap each other, for which
+// smaller cells gain little.
 constexpr std::uint64_t most_references_per_primitive = 24;
 constexpr std::uint64_t references_always_allowed = 1u << 16;
 constexpr std::uint64_t most_references = 0xFFFFFFF0u;
@@ -65,15 +65,17 @@ public:
     bool find_pairs() {
         const std::uint64_t hittable = input_.primitives.hittable_count();
         const std::uint64_t allowed =
-            cells_ == 1 ? most_references
-                        : std::min(most_references, hittable * most_references_per_primitive + references_always_allowed);
+            cells_ == 1
+                ? most_references
+                : std::min(most_references, hittable * most_references_per_primitive + references_always_allowed);
         std::atomic<std::uint64_t> total{0};
         std::atomic<std::uint64_t> done{0};
         input_.parallel.for_each(blocks_.size(), [&](std::uint64_t b) {
             if (total > allowed) return;
             find_pairs(b, allowed);
             total += blocks_[b].pairs.size();
-            input_.progress.report(0.6 * static_cast<double>(++done) / static_cast<double>(blocks_.size()), "grid: cells");
+            input_.progress.report(0.6 * static_cast<double>(++done) / static_cast<double>(blocks_.size()),
+                                   "grid: cells");
         });
         references_ = total;
         return total <= allowed;
@@ -119,7 +121,8 @@ public:
             for (std::uint64_t i = run_begin[run]; i < run_begin[run + 1]; ++i) {
                 references[next[by_run[i].cell - first_cell]++] = by_run[i].primitive;
             }
-            input_.progress.report(0.75 + 0.25 * static_cast<double>(++done) / static_cast<double>(runs_.count), "grid: lists");
+            input_.progress.report(0.75 + 0.25 * static_cast<double>(++done) / static_cast<double>(runs_.count),
+                                   "grid: lists");
         });
     }
 
@@ -168,8 +171,8 @@ std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives
     std::array<bool, 3> divided{};
     for (int axis = 0; axis < 3; ++axis) divided[static_cast<std::size_t>(axis)] = relative[axis] > 0.0;
     for (;;) {
-        // Cells per unit, if the divided axes share all cells: the root of wanted / volume. In logarithms, as a thin box's
-        // volume may be tiny.
+        // Cells per unit, if the divided axes share all cells: the root of wanted / volume. In logarithms, as a thin
+        // box's volume may be tiny.
         double logarithm = std::log2(wanted);
         int axes = 0;
         for (int axis = 0; axis < 3; ++axis) {

@@ -1,19 +1,22 @@
-// The uniform grid: equal cells, each with the list of primitives that overlap it, and a walk from cell to cell along the
-// ray (Fujimoto, Tanaka, Iwata 1986, "ARTS: Accelerated Ray-Tracing System"; GridAccel in Chuang's lecture "Acceleration").
+// The uniform grid: equal cells, each with the list of primitives that overlap it, and a walk from cell to cell along
+// the ray (Fujimoto, Tanaka, Iwata 1986, "ARTS: Accelerated Ray-Tracing System"; GridAccel in Chuang's lecture
+// "Acceleration").
 //
 // Why the walk cannot lose a hit. Let P be the point where the exact ray meets a primitive, at the exact distance t.
-// - Along axis k the cells are parted by the planes 1 ... n - 1 (the faces of the bounds do not part cells). The walk gives
-//   plane i the distance T(i) = a + i * b, a number that is computed the same way each time, grows with i (or falls, for a
-//   backward direction) and puts the plane wrongly by at most 8 * 2^-53 * R along axis k, R being the larger of the ray's
-//   distance from the bounds and their size: the rounding of T, divided by |1 / direction|, is that of a difference of coordinates.
-// - The walk crosses the planes of all three axes in the order of their T. So there is one moment at which it has crossed
-//   exactly the planes with T <= t, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
-// - Primitives are listed in every cell that they come nearer to than half of overlap_slack cells (triangle_box_overlap.h). As
-//   long as that is more than the error, the primitive is in that cell's list: 2^-17 of a cell's width against 2^-50 * R.
-//   Rays from so far away that R exceeds 2^31 cells test all primitives: slower, never different (`largest_margin_`).
-// - The walk starts in a cell whose planes behind it have T below the ray's first possible hit, and ends when the next plane
-//   lies beyond the last possible one, both by the ray's margin. Both distances come from faces of the bounds and are accurate
-//   to the margin, see PreparedRay. So the moment lies between start and end.
+// - Along axis k the cells are parted by the planes 1 ... n - 1 (the faces of the bounds do not part cells). The walk
+//   gives plane i the distance T(i) = a + i * b, a number that is computed the same way each time, grows with i (or
+//   falls, for a backward direction) and puts the plane wrongly by at most 8 * 2^-53 * R along axis k, R being the
+//   larger of the ray's distance from the bounds and their size: the rounding of T, divided by |1 / direction|, is
+//   that of a difference of coordinates.
+// - The walk crosses the planes of all three axes in the order of their T. So there is one moment at which it has
+//   crossed exactly the planes with T <= t, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
+// - Primitives are listed in every cell that they come nearer to than half of overlap_slack cells
+//   (triangle_box_overlap.h). As long as that is more than the error, the primitive is in that cell's list: 2^-17 of
+//   a cell's width against 2^-50 * R. Rays from so far away that R exceeds 2^31 cells test all primitives: slower,
+//   never different (`largest_margin_`).
+// - The walk starts in a cell whose planes behind it have T below the ray's first possible hit, and ends when the
+//   next plane lies beyond the last possible one, both by the ray's margin. Both distances come from faces of the
+//   bounds and are accurate to the margin, see PreparedRay. So the moment lies between start and end.
 #pragma once
 
 #include "accel/grid_statistics.h"
@@ -27,14 +30,17 @@
 
 namespace raywise {
 
-// How many cells along each axis: as many as make cells cubes of which `density` times `primitives` fill the box (Woo's rule
-// as Havran and Sixta 1999 use it). Axes along which the box is thinner than such a cube, or flat, have one
-// cell, and the others share all.
+// How many cells along each axis: as many as make cells cubes of which `density` times `primitives` fill the box
+// (Woo's rule as Havran and Sixta 1999 use it). Axes along which the box is thinner than such a cube, or flat, have
+// one cell, and the others share all.
 std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives, double density);
 
 class UniformGrid final : public TraversedAccel<UniformGrid> {
 public:
-    // Cells per primitive.
+    // Cells per primitive. Random chords through the bunny (69,451 triangles), one thread: 1 cell per triangle took
+    // 20 % more time than 4, 2 took 5 % more, 8 took 6 % more and 16 took 15 % more; building took 1, 1.2, 1.5, 1.9
+    // and 2.5 times as long at 1, 2, 4, 8 and 16. Soups of small triangles gain up to a sixth more at 8, for as much
+    // more memory again.
     static constexpr double default_density = 4.0;
 
     explicit UniformGrid(const BuildInput& input) : UniformGrid(input, default_density) {}
@@ -44,7 +50,8 @@ public:
 
     // All zero without hittable primitives.
     const std::array<std::uint32_t, 3>& resolution() const { return resolution_; }
-    // Where each cell's references begin, and the end of all. Cell (i, j, k) is number i + resolution[0] * (j + resolution[1] * k).
+    // Where each cell's references begin, and the end of all. Cell (i, j, k) is number i + resolution[0] * (j +
+    // resolution[1] * k).
     const std::vector<std::uint32_t>& offsets() const { return offsets_; }
     // Primitives, in ascending order within each cell.
     const std::vector<std::uint32_t>& references() const { return references_; }
@@ -57,11 +64,11 @@ public:
 private:
     // One axis of a walk.
     struct Course {
-        double next;      // T of the next plane; infinite after the last
-        double plane;     // its number
-        double last;      // the number of the face behind the last plane
-        double step;      // 1 or -1
-        double a;         // T(i) = a + i * b
+        double next;  // T of the next plane; infinite after the last
+        double plane; // its number
+        double last;  // the number of the face behind the last plane
+        double step;  // 1 or -1
+        double a;     // T(i) = a + i * b
         double b;
         std::int64_t stride; // from cell to cell, in cell numbers
     };
@@ -89,7 +96,8 @@ void UniformGrid::traverse(const PreparedRay& ray, Visitor& visitor) const {
     if (!(ray.margin <= largest_margin_)) return traverse_all(visitor);
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    // A component so small moves the ray by less than 2^-60 of the scene's distance: nothing, against the slack of the lists.
+    // A component so small moves the ray by less than 2^-60 of the scene's distance: nothing, against the slack of
+    // the lists.
     constexpr double still = 0x1p-60;
 
     double near = ray.tmin;
@@ -145,13 +153,24 @@ void UniformGrid::traverse(const PreparedRay& ray, Visitor& visitor) const {
         stride *= count;
     }
 
+    // The primitives tested last, each at the place its number says (a mailbox, as in Amanatides and Woo 1987, but on
+    // the stack, as many threads ask at once): one that reaches into several cells is tested once for most of them.
+    // Random chords need 6 % fewer tests on the bunny (69,451 triangles) and 26 % fewer in a soup of 100,000, and
+    // take about a tenth less time.
+    std::array<std::uint32_t, 8> tested;
+    tested.fill(PrimitiveHit::no_primitive);
+
     for (;;) {
         const std::uint32_t end = offsets_[static_cast<std::size_t>(cell) + 1];
         for (std::uint32_t i = offsets_[static_cast<std::size_t>(cell)]; i < end; ++i) {
-            if (visitor.visit(references_[i])) return;
+            const std::uint32_t primitive = references_[i];
+            if (tested[primitive % tested.size()] == primitive) continue;
+            tested[primitive % tested.size()] = primitive;
+            if (visitor.visit(primitive)) return;
         }
-        Course& course = courses[0].next <= courses[1].next ? (courses[0].next <= courses[2].next ? courses[0] : courses[2])
-                                                            : (courses[1].next <= courses[2].next ? courses[1] : courses[2]);
+        Course& course = courses[0].next <= courses[1].next
+                             ? (courses[0].next <= courses[2].next ? courses[0] : courses[2])
+                             : (courses[1].next <= courses[2].next ? courses[1] : courses[2]);
         if (course.next > std::min(far, visitor.limit()) + ray.margin) return; // far is finite: the walk ends
         cell += course.stride;
         course.plane += course.step;

@@ -11,7 +11,8 @@ void fail_bad_polygon(std::uint64_t face, std::uint64_t corners) {
 
 void fail_index(std::uint64_t face, const std::string& index, std::uint64_t vertices) {
     throw Error(Status::ERROR_INDEX_OUT_OF_RANGE, "face " + std::to_string(face) + ": index " + index +
-                                                      " is out of range, the mesh has " + std::to_string(vertices) + " vertices");
+                                                      " is out of range, the mesh has " + std::to_string(vertices) +
+                                                      " vertices");
 }
 
 void fail_too_many(const char* elements) {

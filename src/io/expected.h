@@ -1,8 +1,8 @@
 // What a file holds by our own count, made before OpenMesh sees it.
 //
-// OpenMesh's readers pass over what they do not understand, believe counts and indices, and merge or drop what does not suit a
-// half-edge mesh. So each format has a function that checks the whole file first, names what is wrong with it, and takes
-// out what a reader would stumble over. What OpenMesh then delivers has to agree with this count.
+// OpenMesh's readers pass over what they do not understand, believe counts and indices, and merge or drop what does
+// not suit a half-edge mesh. So each format has a function that checks the whole file first, names what is wrong with
+// it, and takes out what a reader would stumble over. What OpenMesh then delivers has to agree with this count.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct Expected {
     std::vector<RepeatedCorners> repeated; // in the order of the faces
 };
 
-// Each checks `text` and rewrites it for the reader of its kind. All throw Error with ERROR_FILE_FORMAT, ERROR_NO_FACES,
-// ERROR_BAD_POLYGON, ERROR_INDEX_OUT_OF_RANGE, ERROR_NOT_FINITE or ERROR_TOO_MANY.
+// Each checks `text` and rewrites it for the reader of its kind. All throw Error with ERROR_FILE_FORMAT,
+// ERROR_NO_FACES, ERROR_BAD_POLYGON, ERROR_INDEX_OUT_OF_RANGE, ERROR_NOT_FINITE or ERROR_TOO_MANY.
 
 // Keeps vertices and faces only, so that no material file is looked for.
 Expected prepare_obj(std::string& text);

@@ -6,7 +6,12 @@
 
 namespace raywise::io {
 
-enum class FileKind { obj, ply, off, stl };
+enum class FileKind {
+    obj,
+    ply,
+    off,
+    stl
+};
 
 // By the ending, in upper or lower case. Throws Error(ERROR_FILE_FORMAT) for any other.
 FileKind kind_of(const std::filesystem::path& path);

@@ -18,10 +18,14 @@ using namespace io;
 
 Expected prepare(FileKind kind, std::string& text) {
     switch (kind) {
-    case FileKind::obj: return prepare_obj(text);
-    case FileKind::off: return prepare_off(text);
-    case FileKind::ply: return prepare_ply(text);
-    case FileKind::stl: break;
+        case FileKind::obj:
+            return prepare_obj(text);
+        case FileKind::off:
+            return prepare_off(text);
+        case FileKind::ply:
+            return prepare_ply(text);
+        case FileKind::stl:
+            break;
     }
     throw Error(Status::ERROR_INTERNAL, "prepare: a kind of file without a reader");
 }
@@ -35,12 +39,14 @@ public:
     void add(std::uint32_t face, const Index* corners, std::size_t count) {
         if (count < 3) fail_bad_polygon(face, count);
         for (std::size_t i = 0; i < count; ++i) {
-            if (static_cast<std::uint64_t>(corners[i]) >= mesh_.vertex_count()) fail_index(face, std::to_string(corners[i]), mesh_.vertex_count());
+            if (static_cast<std::uint64_t>(corners[i]) >= mesh_.vertex_count())
+                fail_index(face, std::to_string(corners[i]), mesh_.vertex_count());
         }
         if (mesh_.triangle_count() + count - 2 >= std::numeric_limits<std::uint32_t>::max()) fail_too_many("triangles");
         for (std::size_t i = 2; i < count; ++i) {
-            mesh_.indices.insert(mesh_.indices.end(), {static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
-                                                       static_cast<std::uint32_t>(corners[i])});
+            mesh_.indices.insert(mesh_.indices.end(),
+                                 {static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
+                                  static_cast<std::uint32_t>(corners[i])});
             mesh_.face_of_triangle.push_back(face);
         }
     }
@@ -74,8 +80,9 @@ LoadedMesh assemble(const Expected& expected, RawMesh raw) {
     mesh.face_count = static_cast<std::uint32_t>(expected.faces);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         if (std::isfinite(mesh.vertices[i])) continue;
-        throw Error(Status::ERROR_NOT_FINITE, "vertex " + std::to_string(i / 3) + ": coordinate " + "xyz"[i % 3] +
-                                                  (std::isnan(mesh.vertices[i]) ? " is NaN" : " is infinite, or too large for a float32"));
+        throw Error(Status::ERROR_NOT_FINITE,
+                    "vertex " + std::to_string(i / 3) + ": coordinate " + "xyz"[i % 3] +
+                        (std::isnan(mesh.vertices[i]) ? " is NaN" : " is infinite, or too large for a float32"));
     }
     Fans fans(mesh);
     auto repeated = expected.repeated.begin();

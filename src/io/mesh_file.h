@@ -17,9 +17,9 @@ struct LoadedMesh {
     std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-// Reads a mesh file; its ending (.obj, .ply, .off, .stl, in upper or lower case) tells the format. Polygons are cut into
-// fans in the order of their corners. Vertices and faces come out as they are in the file: no vertex is merged, no face is
-// dropped or reordered, degenerate ones and meshes that are no manifolds included.
+// Reads a mesh file; its ending (.obj, .ply, .off, .stl, in upper or lower case) tells the format. Polygons are cut
+// into fans in the order of their corners. Vertices and faces come out as they are in the file: no vertex is merged,
+// no face is dropped or reordered, degenerate ones and meshes that are no manifolds included.
 //
 // Throws Error: ERROR_FILE_NOT_FOUND, ERROR_FILE_UNREADABLE, ERROR_FILE_FORMAT, ERROR_NO_FACES, ERROR_BAD_POLYGON,
 // ERROR_INDEX_OUT_OF_RANGE, ERROR_NOT_FINITE and ERROR_TOO_MANY. Any number of threads may load files at the same time.

@@ -100,8 +100,8 @@ private:
     bool log_;
 };
 
-// The readers parse numbers with streams of their own, which follow the global C++ locale. Most programs leave it alone; where one
-// has set a locale that writes numbers differently it is put aside while a file is read.
+// The readers parse numbers with streams of their own, which follow the global C++ locale. Most programs leave it
+// alone; where one has set a locale that writes numbers differently it is put aside while a file is read.
 class PlainNumbers {
 public:
     PlainNumbers() {
@@ -123,13 +123,16 @@ private:
 bool run(FileKind kind, const std::filesystem::path& path, std::istream& stream, Importer& importer) {
     IO::Options options;
     switch (kind) {
-    case FileKind::obj: return IO::IOManager().read(stream, "obj", importer, options);
-    case FileKind::ply: return IO::IOManager().read(stream, "ply", importer, options);
-    case FileKind::off:
-        // This reader learns from the file's first line what each vertex has, and a stream does not make it look.
-        IO::OFFReader().can_u_read(path.string());
-        return IO::IOManager().read(stream, "off", importer, options);
-    case FileKind::stl: break;
+        case FileKind::obj:
+            return IO::IOManager().read(stream, "obj", importer, options);
+        case FileKind::ply:
+            return IO::IOManager().read(stream, "ply", importer, options);
+        case FileKind::off:
+            // This reader learns from the file's first line what each vertex has, and a stream does not make it look.
+            IO::OFFReader().can_u_read(path.string());
+            return IO::IOManager().read(stream, "off", importer, options);
+        case FileKind::stl:
+            break;
     }
     return false;
 }

@@ -18,8 +18,8 @@ struct RawMesh {
     std::size_t face_count() const { return face_ends.size(); }
 };
 
-// Runs the reader of that kind over a text that has been prepared for it (see expected.h). Throws Error(ERROR_FILE_FORMAT)
-// when it refuses. One text at a time: the readers keep their state in globals.
+// Runs the reader of that kind over a text that has been prepared for it (see expected.h). Throws
+// Error(ERROR_FILE_FORMAT) when it refuses. One text at a time: the readers keep their state in globals.
 RawMesh read_with_openmesh(FileKind kind, const std::filesystem::path& path, const std::string& text);
 
 } // namespace raywise::io

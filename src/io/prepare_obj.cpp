@@ -8,7 +8,8 @@ namespace raywise::io {
 namespace {
 
 // The words a line of an OBJ file may begin with; the format has more, and they only have to tell text from noise.
-constexpr std::array known_words = {"v", "vt", "vn", "vp", "f", "l", "p", "g", "o", "s", "usemtl", "mtllib", "cstype", "deg", "curv", "surf"};
+constexpr std::array known_words = {"v", "vt", "vn",     "vp",     "f",      "l",   "p",    "g",
+                                    "o", "s",  "usemtl", "mtllib", "cstype", "deg", "curv", "surf"};
 
 // Makes one line of what is one line to OBJ: lone carriage returns end lines, backslashes continue them.
 void unify_lines(std::string& text) {
@@ -51,10 +52,12 @@ public:
                 blank(begin, line.size());
             }
         }
-        if (!known && expected_.vertices == 0) throw Error(Status::ERROR_FILE_FORMAT, "the file holds no line of an OBJ file");
+        if (!known && expected_.vertices == 0)
+            throw Error(Status::ERROR_FILE_FORMAT, "the file holds no line of an OBJ file");
         if (expected_.faces == 0) fail_no_faces();
         // Faces may come before their vertices.
-        if (vertices_needed_ > expected_.vertices) fail_index(neediest_face_, std::to_string(vertices_needed_), expected_.vertices);
+        if (vertices_needed_ > expected_.vertices)
+            fail_index(neediest_face_, std::to_string(vertices_needed_), expected_.vertices);
         return std::move(expected_);
     }
 
@@ -76,7 +79,8 @@ private:
     void face(std::string_view words) {
         if (expected_.faces >= most_elements) fail_too_many("faces");
         corners_.clear();
-        for (std::string_view word = take_word(words); !word.empty(); word = take_word(words)) corners_.push_back(corner(word));
+        for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
+            corners_.push_back(corner(word));
         if (corners_.size() < 3) fail_bad_polygon(expected_.faces, corners_.size());
         sorted_ = corners_;
         std::sort(sorted_.begin(), sorted_.end());
@@ -92,7 +96,8 @@ private:
         const auto index = integer_of<std::int64_t>(number);
         if (!index || word.find_first_not_of("0123456789/+-") != std::string_view::npos ||
             std::count(word.begin(), word.end(), '/') > 2) {
-            throw Error(Status::ERROR_FILE_FORMAT, "face " + std::to_string(expected_.faces) + " (line " + std::to_string(line_) + "): \"" +
+            throw Error(Status::ERROR_FILE_FORMAT, "face " + std::to_string(expected_.faces) + " (line " +
+                                                       std::to_string(line_) + "): \"" +
                                                        std::string(word.substr(0, 40)) + "\" is no corner");
         }
         const std::int64_t vertex = *index > 0 ? *index - 1 : static_cast<std::int64_t>(expected_.vertices) + *index;

@@ -41,7 +41,8 @@ public:
         std::string_view start = text_;
         std::string_view first_line = take_line(start);
         take_word(first_line);
-        if (take_word(first_line) == "BINARY") throw Error(Status::ERROR_FILE_FORMAT, "binary OFF files are not supported");
+        if (take_word(first_line) == "BINARY")
+            throw Error(Status::ERROR_FILE_FORMAT, "binary OFF files are not supported");
         if (text_.find('\0') != std::string::npos) throw Error(Status::ERROR_FILE_FORMAT, "the file is no text");
         unify();
 
@@ -63,7 +64,8 @@ public:
         expected_.faces = count(take_word(counts), "faces");
         const std::string_view edges = take_word(counts);
         if (!edges.empty() && !integer_of<std::int64_t>(edges)) {
-            throw Error(Status::ERROR_FILE_FORMAT, "line " + std::to_string(line_) + ": three counts have to follow OFF");
+            throw Error(Status::ERROR_FILE_FORMAT,
+                        "line " + std::to_string(line_) + ": three counts have to follow OFF");
         }
         if (expected_.faces == 0) fail_no_faces();
         for (std::uint64_t i = 0; i < expected_.vertices; ++i) vertex(i);
@@ -97,7 +99,8 @@ private:
             ++line_;
             std::string_view words = line;
             if (take_word(words).empty()) continue;
-            if (end_of_counts_ == 0) end_of_counts_ = static_cast<std::size_t>(line.data() - text_.data()) + line.size();
+            if (end_of_counts_ == 0)
+                end_of_counts_ = static_cast<std::size_t>(line.data() - text_.data()) + line.size();
             return line;
         }
         throw Error(Status::ERROR_FILE_FORMAT, "the file is truncated: " + what_is_missing);
@@ -112,20 +115,24 @@ private:
 
     void vertex(std::uint64_t number) {
         const auto where = [&] { return "vertex " + std::to_string(number) + " (line " + std::to_string(line_) + ")"; };
-        std::string_view words = row("vertex " + std::to_string(number) + " of " + std::to_string(expected_.vertices) + " is missing");
+        std::string_view words =
+            row("vertex " + std::to_string(number) + " of " + std::to_string(expected_.vertices) + " is missing");
         for (int i = 0; i < (header_.normal ? 6 : 3); ++i) check_coordinate(take_word(words), where);
         trailing(words, where(), header_.texture ? 2 : 0);
     }
 
     void face(std::uint64_t number) {
-        std::string_view words = row("face " + std::to_string(number) + " of " + std::to_string(expected_.faces) + " is missing");
+        std::string_view words =
+            row("face " + std::to_string(number) + " of " + std::to_string(expected_.faces) + " is missing");
         const auto corners = integer_of<std::uint64_t>(take_word(words));
         if (!corners) fail_face(number, "the number of corners is missing");
         if (*corners < 3) fail_bad_polygon(number, *corners);
         for (std::uint64_t i = 0; i < *corners; ++i) {
             const std::string_view word = take_word(words);
             const auto index = integer_of<std::int64_t>(word);
-            if (!index) fail_face(number, word.empty() ? "it has too few corners" : "\"" + std::string(word.substr(0, 40)) + "\" is no index");
+            if (!index)
+                fail_face(number, word.empty() ? "it has too few corners"
+                                               : "\"" + std::string(word.substr(0, 40)) + "\" is no index");
             if (*index < 0 || static_cast<std::uint64_t>(*index) >= expected_.vertices) {
                 fail_index(number, std::to_string(*index), expected_.vertices);
             }
@@ -148,7 +155,8 @@ private:
     }
 
     [[noreturn]] void fail_face(std::uint64_t number, const std::string& what) const {
-        throw Error(Status::ERROR_FILE_FORMAT, "face " + std::to_string(number) + " (line " + std::to_string(line_) + "): " + what);
+        throw Error(Status::ERROR_FILE_FORMAT,
+                    "face " + std::to_string(number) + " (line " + std::to_string(line_) + "): " + what);
     }
 
     std::string& text_;

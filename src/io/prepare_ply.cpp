@@ -43,7 +43,11 @@ struct Element {
     std::vector<Property> properties;
 };
 
-enum class Encoding { ascii, little, big };
+enum class Encoding {
+    ascii,
+    little,
+    big
+};
 
 struct Header {
     Encoding encoding = Encoding::ascii;
@@ -68,7 +72,8 @@ Property property_of(std::string_view words, const Element& element) {
         property.axis = name[0] - 'x';
         if (!property.type.is_float) fail("vertex coordinates have to be float or double");
     }
-    if ((element.name == "face" || element.name == "tristrips") && is_list && (name == "vertex_indices" || name == "vertex_index")) {
+    if ((element.name == "face" || element.name == "tristrips") && is_list &&
+        (name == "vertex_indices" || name == "vertex_index")) {
         property.is_corners = true;
         if (property.type.is_float) fail("vertex indices have to be integers");
     }
@@ -93,15 +98,20 @@ Header header_of(std::string_view text) {
         if (keyword == "format") {
             const std::string_view format = take_word(words);
             has_format = true;
-            if (format == "ascii") header.encoding = Encoding::ascii;
-            else if (format == "binary_little_endian") header.encoding = Encoding::little;
-            else if (format == "binary_big_endian") header.encoding = Encoding::big;
-            else fail("the header names an unknown format: " + std::string(format.substr(0, 40)));
+            if (format == "ascii")
+                header.encoding = Encoding::ascii;
+            else if (format == "binary_little_endian")
+                header.encoding = Encoding::little;
+            else if (format == "binary_big_endian")
+                header.encoding = Encoding::big;
+            else
+                fail("the header names an unknown format: " + std::string(format.substr(0, 40)));
         } else if (keyword == "element") {
             Element element;
             element.name = take_word(words);
             const auto count = integer_of<std::uint64_t>(take_word(words));
-            if (!count) fail("the header does not say how many of element " + element.name.substr(0, 40) + " there are");
+            if (!count)
+                fail("the header does not say how many of element " + element.name.substr(0, 40) + " there are");
             element.count = *count;
             header.elements.push_back(std::move(element));
         } else if (keyword == "property") {
@@ -137,7 +147,9 @@ public:
         const std::string_view value = take(type);
         if (encoding_ == Encoding::ascii) {
             const auto number = integer_of<std::int64_t>(value);
-            if (!number) fail(std::string(element) + " " + std::to_string(number_of_element) + ": \"" + std::string(value.substr(0, 40)) + "\" is no integer");
+            if (!number)
+                fail(std::string(element) + " " + std::to_string(number_of_element) + ": \"" +
+                     std::string(value.substr(0, 40)) + "\" is no integer");
             return *number;
         }
         std::uint64_t number = 0;
@@ -146,7 +158,8 @@ public:
             number = number << 8 | static_cast<unsigned char>(value[at]);
         }
         const std::uint64_t sign = std::uint64_t{1} << (8 * type.size - 1);
-        if (type.is_signed && (number & sign) != 0) return static_cast<std::int64_t>(number) - static_cast<std::int64_t>(2 * sign);
+        if (type.is_signed && (number & sign) != 0)
+            return static_cast<std::int64_t>(number) - static_cast<std::int64_t>(2 * sign);
         return static_cast<std::int64_t>(number);
     }
 
@@ -169,7 +182,8 @@ private:
 
 class PlyRewrite {
 public:
-    explicit PlyRewrite(const std::string& text) : header_(header_of(text)), values_(std::string_view(text).substr(header_.size), header_.encoding) {}
+    explicit PlyRewrite(const std::string& text)
+        : header_(header_of(text)), values_(std::string_view(text).substr(header_.size), header_.encoding) {}
 
     Expected run(std::string& out) {
         if (header_.encoding == Encoding::ascii) ascii_ = true;
@@ -187,7 +201,8 @@ public:
             if (property.axis >= 0) ++axes[static_cast<std::size_t>(property.axis)];
         }
         if (axes != std::array<int, 3>{1, 1, 1}) fail("element vertex needs the properties x, y and z, once each");
-        if (std::count_if(face->properties.begin(), face->properties.end(), [](const Property& p) { return p.is_corners; }) != 1) {
+        if (std::count_if(face->properties.begin(), face->properties.end(),
+                          [](const Property& p) { return p.is_corners; }) != 1) {
             fail("element " + face->name + " needs one list of vertex indices");
         }
 
@@ -259,8 +274,8 @@ private:
         end_face();
     }
 
-    // Triangle strips, as the Stanford scans have them: each index makes a triangle with the two before it, every other one the
-    // other way round, and -1 begins anew. Each triangle becomes a face.
+    // Triangle strips, as the Stanford scans have them: each index makes a triangle with the two before it, every
+    // other one the other way round, and -1 begins anew. Each triangle becomes a face.
     void strip(const Property& property, std::uint64_t number) {
         const std::int64_t count = values_.take_integer(property.count, "tristrips", number);
         std::array<std::int64_t, 2> last{};
@@ -328,7 +343,8 @@ private:
         for (const Property& property : vertex.properties) {
             if (property.axis >= 0) text += "property " + property.type_name + " " + "xyz"[property.axis] + "\n";
         }
-        return text + "element face " + std::to_string(expected_.faces) + "\nproperty list int int vertex_indices\nend_header\n";
+        return text + "element face " + std::to_string(expected_.faces) +
+               "\nproperty list int int vertex_indices\nend_header\n";
     }
 
     Header header_;

@@ -9,7 +9,7 @@
 namespace raywise::io {
 namespace {
 
-constexpr std::size_t head_size = 84; // 80 bytes of text, the number of facets
+constexpr std::size_t head_size = 84;  // 80 bytes of text, the number of facets
 constexpr std::size_t facet_size = 50; // normal, three corners, two bytes
 
 std::uint32_t little_endian(std::string_view bytes) {
@@ -22,8 +22,9 @@ void add_facet(LoadedMesh& mesh, const std::array<float, 9>& corners) {
     if (mesh.vertex_count() + 3 > most_elements) fail_too_many("vertices");
     for (std::size_t i = 0; i < 9; ++i) {
         if (std::isfinite(corners[i])) continue;
-        throw Error(Status::ERROR_NOT_FINITE, "face " + std::to_string(mesh.face_count) + ": coordinate " + "xyz"[i % 3] + " of corner " +
-                                                  std::to_string(i / 3) + (std::isnan(corners[i]) ? " is NaN" : " is infinite"));
+        throw Error(Status::ERROR_NOT_FINITE, "face " + std::to_string(mesh.face_count) + ": coordinate " +
+                                                  "xyz"[i % 3] + " of corner " + std::to_string(i / 3) +
+                                                  (std::isnan(corners[i]) ? " is NaN" : " is infinite"));
     }
     const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
@@ -108,7 +109,9 @@ private:
                 if (count < 3) corners[3 * count + axis] = value;
             }
         }
-        if (!is_word(word, "endloop")) fail(word.empty() ? "the file is truncated" : "\"" + std::string(word.substr(0, 40)) + "\" instead of vertex or endloop");
+        if (!is_word(word, "endloop"))
+            fail(word.empty() ? "the file is truncated"
+                              : "\"" + std::string(word.substr(0, 40)) + "\" instead of vertex or endloop");
         if (count < 3) fail_bad_polygon(mesh_.face_count, count);
         if (count > 3) fail("it has " + std::to_string(count) + " corners instead of 3");
         expect("endfacet");
@@ -132,10 +135,11 @@ LoadedMesh read_stl(std::string_view bytes) {
         mesh = Ascii(bytes).read();
     } else {
         throw Error(Status::ERROR_FILE_FORMAT,
-                    bytes.size() < head_size ? "the file is too short for an STL file"
-                                             : "the file is truncated or no STL file: " + std::to_string(facets) + " facets would take " +
-                                                   std::to_string(head_size + facet_size * std::uint64_t{facets}) + " bytes, it has " +
-                                                   std::to_string(bytes.size()));
+                    bytes.size() < head_size
+                        ? "the file is too short for an STL file"
+                        : "the file is truncated or no STL file: " + std::to_string(facets) + " facets would take " +
+                              std::to_string(head_size + facet_size * std::uint64_t{facets}) + " bytes, it has " +
+                              std::to_string(bytes.size()));
     }
     if (mesh.face_count == 0) fail_no_faces();
     return mesh;

@@ -1,4 +1,5 @@
-// Every number that decides something, as calibration measures it. All times in nanoseconds of wall time on one thread.
+// Every number that decides something, as calibration measures it. All times in nanoseconds on one thread: processor time, which on a
+// quiet machine is wall time.
 #pragma once
 
 #include "base/structure.h"
@@ -17,8 +18,9 @@ struct CostLine {
 
 struct StructureConstants {
     CostLine build_ns;
-    std::array<CostLine, measured_ray_kinds.size()> ray_ns; // per ray; shadow rays ask for any hit, the others for the closest
-    CostLine bytes;                                         // unit: triangles
+    std::array<CostLine, measured_ray_kinds.size()>
+        ray_ns;     // per ray; shadow rays ask for any hit, the others for the closest
+    CostLine bytes; // unit: triangles
 };
 
 // Hapala, Karlik, Havran 2011, eq. 7 and 8: means over the calibration scenes of the hierarchy's (kd-tree's) build time

@@ -25,6 +25,7 @@ const char* ray_unit_name(Structure structure);
 // Whether the structure needs a view to differ from another candidate; without one it is no candidate.
 bool needs_view(Structure structure);
 
-Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features, const Workload& workload);
+Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
+             const Workload& workload);
 
 } // namespace raywise

@@ -12,9 +12,9 @@ namespace raywise {
 
 struct HapalaDecision {
     bool keep_grid;
-    double tree_build_ns;  // eq. 7
-    double tree_ray_ns;    // eq. 8
-    double critical_rays;  // R_C; infinite when the grid's rays are the cheaper ones
+    double tree_build_ns; // eq. 7
+    double tree_ray_ns;   // eq. 8
+    double critical_rays; // R_C; infinite when the grid's rays are the cheaper ones
 };
 
 // triangles: N. rays: R; empty: unknown, counted as infinitely many. grid_ray_ns: measured on a sample of rays on the built grid.

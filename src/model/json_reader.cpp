@@ -93,8 +93,8 @@ double JsonValue::number(double lowest, double highest) const {
 std::uint64_t JsonValue::whole_number(std::uint64_t lowest, std::uint64_t highest) const {
     if (!value_.is_number()) refuse(Status::PROFILE_MALFORMED, "has to be a whole number");
     if (!value_.is_number_unsigned() || value_.get<std::uint64_t>() < lowest || value_.get<std::uint64_t>() > highest) {
-        refuse(Status::PROFILE_RANGE, "has to be a whole number between " + std::to_string(lowest) + " and " +
-                                          std::to_string(highest));
+        refuse(Status::PROFILE_RANGE,
+               "has to be a whole number between " + std::to_string(lowest) + " and " + std::to_string(highest));
     }
     return value_.get<std::uint64_t>();
 }

@@ -7,8 +7,8 @@
 namespace raywise {
 
 struct Machine {
-    std::string vendor;      // "AuthenticAMD"
-    std::string brand;       // for people
+    std::string vendor; // "AuthenticAMD"
+    std::string brand;  // for people
     unsigned family = 0;
     unsigned model = 0;
     unsigned stepping = 0;
@@ -16,9 +16,9 @@ struct Machine {
     std::uint64_t l1_bytes = 0;
     std::uint64_t l2_bytes = 0;
     std::uint64_t l3_bytes = 0;
-    unsigned threads = 0;        // usable by this process: affinity and cgroup included
+    unsigned threads = 0;              // usable by this process: affinity and cgroup included
     std::string precision = "float64"; // of the decisive tests
-    bool virtualised = false;    // told, not compared
+    bool virtualised = false;          // told, not compared
 
     // Names the profile's file: lower case letters, digits and '-', e.g. "authenticamd-26-2-1-x86-64-l3-32m-t2".
     std::string key() const;

@@ -12,7 +12,8 @@ std::string shown(std::uint64_t value) { return std::to_string(value); }
 template <class T>
 void compare(const char* member, const T& profile, const T& here, std::string& difference) {
     if (!difference.empty() || profile == here) return;
-    difference = std::string("machine.") + member + ": the profile has " + shown(profile) + ", this machine " + shown(here);
+    difference =
+        std::string("machine.") + member + ": the profile has " + shown(profile) + ", this machine " + shown(here);
 }
 
 } // namespace
@@ -33,10 +34,6 @@ Status check_machine(const Profile& profile, const Machine& here, std::string& r
     if (difference.empty()) return Status::OK;
     reason = difference;
     return Status::PROFILE_MACHINE;
-}
-
-std::string machine_name(const Profile& profile) {
-    return profile.source == ProfileSource::generic ? "generic" : profile.machine.key();
 }
 
 } // namespace raywise

@@ -16,14 +16,20 @@
 namespace raywise {
 
 // Values as RW_PROFILE_SOURCE_* in raywise.h.
-enum class ProfileSource { generic = 0, path = 1, environment = 2, user = 3, system = 4 };
+enum class ProfileSource {
+    generic = 0,
+    path = 1,
+    environment = 2,
+    user = 3,
+    system = 4
+};
 
 struct Provenance {
-    std::string tool;    // "raywise-calibrate 0.1.0"
-    std::string command; // as typed
-    std::string date;    // ISO 8601, UTC
-    std::string mode;    // "quick" or "full"
-    double spread = 0.0; // relative spread of repeated timings
+    std::string tool;     // "raywise-calibrate 0.1.0"
+    std::string command;  // as typed
+    std::string date;     // ISO 8601, UTC
+    std::string mode;     // "quick" or "full"
+    double spread = 0.0;  // relative spread of repeated timings
     double seconds = 0.0; // how long measuring took
 };
 
@@ -68,9 +74,6 @@ Profile find_profile(const ProfilePlaces& places);
 // status; it checks everything but the machine.
 std::string to_json(const Profile& profile);
 Profile parse_profile(const std::string& text);
-
-// The key of the machine it was measured on, or "generic" for the compiled-in constants.
-std::string machine_name(const Profile& profile);
 
 // As text for people: fits 100 columns.
 std::string to_text(const Profile& profile);

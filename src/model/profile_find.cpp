@@ -18,7 +18,8 @@ std::string environment(const char* name) {
 }
 
 // The profile of that file when it can be used here; otherwise notes why not, unless something was noted before.
-bool take(const std::filesystem::path& path, ProfileSource source, Profile& profile, Status& status, std::string& reason) {
+bool take(const std::filesystem::path& path, ProfileSource source, Profile& profile, Status& status,
+          std::string& reason) {
     try {
         Profile read = read_profile(path);
         std::string difference;

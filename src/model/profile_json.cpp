@@ -19,9 +19,9 @@ constexpr double most_fixed_ns = 1e13;
 constexpr double most_ns_per_unit = 1e9;
 constexpr double most_fixed_bytes = 1e12;
 constexpr double most_bytes_per_triangle = 1e6;
-constexpr double most_residual = 1e3;   // relative: a thousandfold misfit
-constexpr double most_single_ns = 1e6;  // one triangle test or one step between nodes
-constexpr double most_seconds = 1e7;    // spent on measuring: four months
+constexpr double most_residual = 1e3;  // relative: a thousandfold misfit
+constexpr double most_single_ns = 1e6; // one triangle test or one step between nodes
+constexpr double most_seconds = 1e7;   // spent on measuring: four months
 constexpr std::uint64_t most_cache_bytes = std::uint64_t{1} << 40;
 constexpr std::uint64_t most_threads = 1u << 20;
 
@@ -167,8 +167,8 @@ Profile parse_profile(const std::string& text) {
                              "this library's kernels are of epoch " + std::to_string(calibration_epoch));
     }
 
-    root.expect_members({"schema", "epoch", "machine", "provenance", "structures", "hapala", "primitive_test_ns",
-                         "node_step_ns"});
+    root.expect_members(
+        {"schema", "epoch", "machine", "provenance", "structures", "hapala", "primitive_test_ns", "node_step_ns"});
     Profile profile;
     profile.epoch = static_cast<unsigned>(epoch);
     profile.machine = parse_machine(root["machine"]);

@@ -50,11 +50,16 @@ std::string size_text(std::uint64_t bytes) {
 
 std::string source_text(const Profile& profile) {
     switch (profile.source) {
-    case ProfileSource::generic: return "generic constants, compiled in";
-    case ProfileSource::path: return profile.path;
-    case ProfileSource::environment: return profile.path + " (RAYWISE_CALIBRATION)";
-    case ProfileSource::user: return profile.path + " (user)";
-    case ProfileSource::system: return profile.path + " (system)";
+        case ProfileSource::generic:
+            return "generic constants, compiled in";
+        case ProfileSource::path:
+            return profile.path;
+        case ProfileSource::environment:
+            return profile.path + " (RAYWISE_CALIBRATION)";
+        case ProfileSource::user:
+            return profile.path + " (user)";
+        case ProfileSource::system:
+            return profile.path + " (system)";
     }
     return {};
 }
@@ -74,12 +79,12 @@ std::string to_text(const Profile& profile) {
 
     std::string text = paragraph("profile", source_text(profile));
     if (profile.status != Status::OK) text += paragraph("passed over", profile.reason);
-    text += paragraph("measured on", machine.brand + " (" + machine.vendor + " family " + std::to_string(machine.family) +
-                                         " model " + std::to_string(machine.model) + " stepping " +
-                                         std::to_string(machine.stepping) + "), " + machine.instruction_set + ", " +
-                                         machine.precision + ", " + std::to_string(machine.threads) + " threads, caches " +
-                                         size_text(machine.l1_bytes) + " / " + size_text(machine.l2_bytes) + " / " +
-                                         size_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
+    text += paragraph("measured on",
+                      machine.brand + " (" + machine.vendor + " family " + std::to_string(machine.family) + " model " +
+                          std::to_string(machine.model) + " stepping " + std::to_string(machine.stepping) + "), " +
+                          machine.instruction_set + ", " + machine.precision + ", " + std::to_string(machine.threads) +
+                          " threads, caches " + size_text(machine.l1_bytes) + " / " + size_text(machine.l2_bytes) +
+                          " / " + size_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
     text += paragraph("key", machine.key());
     text += paragraph("measured at", provenance.date + ", mode " + provenance.mode + ", " +
                                          format("%.0f s, spread of repeated timings %.1f %%", provenance.seconds,
@@ -101,7 +106,8 @@ std::string to_text(const Profile& profile) {
     text += "\n";
     text += format("%-44s %12.6g ns\n", "one triangle test", constants.primitive_test_ns);
     text += format("%-44s %12.6g ns\n", "one step from node to node", constants.node_step_ns);
-    text += format("%-44s %12.6g ns\n", "published rule, eq. 7: build per N log2 N", constants.hapala.build_ns_per_n_log_n);
+    text +=
+        format("%-44s %12.6g ns\n", "published rule, eq. 7: build per N log2 N", constants.hapala.build_ns_per_n_log_n);
     text += format("%-44s %12.6g ns\n", "published rule, eq. 8: ray per log2 N", constants.hapala.ray_ns_per_log_n);
     return text;
 }

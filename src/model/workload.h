@@ -8,7 +8,13 @@
 namespace raywise {
 
 // How rays are spread; values as RW_RAYS_* in raywise.h.
-enum class RayKind { any = 0, random = 1, camera = 2, shadow = 3, diffuse = 4 };
+enum class RayKind {
+    any = 0,
+    random = 1,
+    camera = 2,
+    shadow = 3,
+    diffuse = 4
+};
 
 // The kinds that are measured. `any` is reckoned as random.
 inline constexpr std::array measured_ray_kinds = {RayKind::random, RayKind::camera, RayKind::shadow, RayKind::diffuse};

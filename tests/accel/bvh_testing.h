@@ -104,6 +104,7 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
 // The ray, and the same with intervals that begin or end at its hits, or lie behind its origin.
 template <class Structure>
 bool expect_same_with_intervals(Scene& scene, const Structure& structure, Ray ray) {
+    if (!PreparedRay::is_traceable(ray)) return false;
     const bool hit = expect_same(scene, structure, ray);
     const PreparedRay prepared(ray, scene.bounds());
     std::vector<PrimitiveHit> hits;

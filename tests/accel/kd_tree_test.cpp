@@ -88,7 +88,7 @@ TEST(KdTree, IsTheSameForAnyNumberOfThreads) {
 
 // Enough primitives for parts that are built apart and joined.
 TEST(KdTree, AnswersAsTheLinearScanWhenBuiltInParts) {
-    World world(random_soup(20000, 0.02, 42));
+    World world(random_soup(9000, 0.02, 42));
     const KdTree tree(world.input());
     expect_scan_answers(world, tree, 204);
 }

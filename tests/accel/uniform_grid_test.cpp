@@ -118,8 +118,9 @@ TEST(GridResolution, MakesAsManyCubesAsAskedFor) {
     EXPECT_EQ(grid_resolution({1e-200, 1e-200, 1e-200}, 27, 1.0), (Resolution{3, 3, 3}));
 }
 
-// Havran and Sixta's scenes, with the boxes that the generators' files have. Their boxes must have been a little different (their
-// numbers of cells exceed density * primitives at times), so that theirs are met within one cell in ten.
+// Havran and Sixta's scenes, with the boxes that the generators' files have. Their boxes must have been a little
+// different (their numbers of cells exceed density * primitives at times), so that theirs are met within one cell in
+// ten.
 TEST(GridResolution, IsThatOfHavranAndSixta) {
     const struct {
         Vec3 size;
@@ -127,9 +128,12 @@ TEST(GridResolution, IsThatOfHavranAndSixta) {
         double density;
         Resolution published;
     } scenes[] = {
-        {{24, 24, 1.3306}, 7382, 1, {46, 46, 3}},      {{24, 24, 1.3306}, 7382, 10, {103, 103, 7}},
-        {{4, 4, 1}, 9345, 1, {32, 33, 9}},             {{4, 4, 1}, 9345, 10, {71, 71, 18}},
-        {{2.1596, 2.1596, 2.0812}, 8196, 1, {20, 20, 20}}, {{8, 8, 3.15}, 9264, 1, {28, 29, 11}},
+        {{24, 24, 1.3306}, 7382, 1, {46, 46, 3}},
+        {{24, 24, 1.3306}, 7382, 10, {103, 103, 7}},
+        {{4, 4, 1}, 9345, 1, {32, 33, 9}},
+        {{4, 4, 1}, 9345, 10, {71, 71, 18}},
+        {{2.1596, 2.1596, 2.0812}, 8196, 1, {20, 20, 20}},
+        {{8, 8, 3.15}, 9264, 1, {28, 29, 11}},
         {{2, 2, 2}, 4096, 1, {16, 16, 16}},
     };
     for (const auto& scene : scenes) {

@@ -52,8 +52,8 @@ void expect_rounded(double x) {
 }
 
 TEST(Rounding, FindsTheNearestFloatOnEachSide) {
-    for (const double x : {0.0, 1.0, 0.1, 1.0 + 0x1p-30, 16777217.0, 0x1p-149, 0x1p-150, 0x1p-1074, 1e-40, 0x1.fffffffp-127, float_max,
-                           std::nextafter(float_max, 0.0), 1e38, 3.0}) {
+    for (const double x : {0.0, 1.0, 0.1, 1.0 + 0x1p-30, 16777217.0, 0x1p-149, 0x1p-150, 0x1p-1074, 1e-40,
+                           0x1.fffffffp-127, float_max, std::nextafter(float_max, 0.0), 1e38, 3.0}) {
         expect_rounded(x);
         expect_rounded(-x);
     }
@@ -61,6 +61,26 @@ TEST(Rounding, FindsTheNearestFloatOnEachSide) {
     for (int i = 0; i < 10000; ++i) {
         const double mantissa = 1.0 + static_cast<double>(random() >> 12) * 0x1p-52;
         expect_rounded(std::ldexp(i % 2 == 0 ? mantissa : -mantissa, static_cast<int>(random() % 276) - 149));
+    }
+}
+
+// All six at once as well: optimisers have been seen to leave the rounding of neighbouring numbers out.
+TEST(Rounding, HoldsForWholeBoxes) {
+    std::mt19937_64 random(4);
+    const auto number = [&random] { return 2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0; };
+    for (int i = 0; i < 5000; ++i) {
+        Box box;
+        box.extend(Vec3(number(), number(), number()));
+        box.extend(Vec3(number(), number(), number()));
+        const BoxF rounded = round_outwards(box);
+        for (int axis = 0; axis < 3; ++axis) {
+            volatile float lower = rounded.lower[axis];
+            volatile float upper = rounded.upper[axis];
+            ASSERT_LE(static_cast<double>(lower), box.lower[axis]);
+            ASSERT_GE(static_cast<double>(upper), box.upper[axis]);
+            ASSERT_GT(static_cast<double>(std::nextafter(static_cast<float>(lower), 2.0f)), box.lower[axis]);
+            ASSERT_LT(static_cast<double>(std::nextafter(static_cast<float>(upper), -2.0f)), box.upper[axis]);
+        }
     }
 }
 

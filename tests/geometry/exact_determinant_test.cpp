@@ -15,9 +15,13 @@ using oracle::Fraction;
 
 int sign_of(double x) { return (x > 0.0) - (x < 0.0); }
 
-AxisScale scale_of(const Vec3& o, const Vec3& p, const Vec3& q) { return AxisScale::of(glm::max(glm::abs(p - o), glm::abs(q - o))); }
+AxisScale scale_of(const Vec3& o, const Vec3& p, const Vec3& q) {
+    return AxisScale::of(glm::max(glm::abs(p - o), glm::abs(q - o)));
+}
 
-double determinant(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q) { return exact_determinant(d, o, p, q, scale_of(o, p, q)); }
+double determinant(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q) {
+    return exact_determinant(d, o, p, q, scale_of(o, p, q));
+}
 
 // The sign has to be right, and the value but for a power of two.
 void expect_exact(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q) {
@@ -33,7 +37,10 @@ void expect_exact(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q) {
     const oracle::Integer power = oracle::Integer(1) << static_cast<unsigned>(std::abs(exponent));
     ratio = exponent > 0 ? Fraction(ratio / power) : Fraction(ratio * power);
     const double mantissa = ratio.convert_to<double>();
-    EXPECT_LE(std::min(std::fabs(mantissa - 1.0), std::min(std::fabs(mantissa / 2.0 - 1.0), std::fabs(mantissa * 2.0 - 1.0))), 0x1p-50) << mantissa;
+    EXPECT_LE(
+        std::min(std::fabs(mantissa - 1.0), std::min(std::fabs(mantissa / 2.0 - 1.0), std::fabs(mantissa * 2.0 - 1.0))),
+        0x1p-50)
+        << mantissa;
 }
 
 class Numbers {
@@ -107,10 +114,12 @@ TEST(ExactDeterminant, GivesAllWeightsOfATriangleTheSameFactor) {
         const Vec3 d = numbers.vector(-30, 0);
         const Vec3 o = numbers.vector(-3, 3);
         const Vec3 p[3] = {numbers.vector(-3, 3), numbers.vector(-40, 3), numbers.vector(-3, 3)};
-        const AxisScale scale = AxisScale::of(glm::max(glm::abs(p[0] - o), glm::max(glm::abs(p[1] - o), glm::abs(p[2] - o))));
+        const AxisScale scale =
+            AxisScale::of(glm::max(glm::abs(p[0] - o), glm::max(glm::abs(p[1] - o), glm::abs(p[2] - o))));
         const double first = exact_determinant(d, o, p[0], p[1], scale);
         const double second = exact_determinant(d, o, p[1], p[2], scale);
-        const Fraction wanted = oracle::exact_determinant_value(d, o, p[0], p[1]) / oracle::exact_determinant_value(d, o, p[1], p[2]);
+        const Fraction wanted =
+            oracle::exact_determinant_value(d, o, p[0], p[1]) / oracle::exact_determinant_value(d, o, p[1], p[2]);
         EXPECT_NEAR(Fraction(oracle::exact(first) / oracle::exact(second) / wanted).convert_to<double>(), 1.0, 0x1p-49);
     }
 }

@@ -14,10 +14,13 @@ namespace {
 
 using oracle::Scene;
 
-std::shared_ptr<const TriangleMesh> mesh_of(const Scene& scene) { return oracle::primitives_of(scene).meshes().front(); }
+std::shared_ptr<const TriangleMesh> mesh_of(const Scene& scene) {
+    return oracle::primitives_of(scene).meshes().front();
+}
 
 TEST(Primitives, NumbersThroughAllMeshes) {
-    const Primitives primitives({mesh_of(oracle::cube()), mesh_of(oracle::empty_scene()), mesh_of(oracle::single_triangle())});
+    const Primitives primitives(
+        {mesh_of(oracle::cube()), mesh_of(oracle::empty_scene()), mesh_of(oracle::single_triangle())});
     EXPECT_EQ(primitives.count(), 13u);
     EXPECT_EQ(primitives.locate(0).geometry, 0u);
     EXPECT_EQ(primitives.locate(11).geometry, 0u);
@@ -44,7 +47,8 @@ TEST(Primitives, CountsTrianglesWithoutAreaExactly) {
 TEST(Primitives, AgreesWithTheJudgeOnWhatHasArea) {
     std::mt19937_64 random(3);
     const auto number = [&random](int low, int high) {
-        return std::ldexp(1.0 + static_cast<double>(random() >> 12) * 0x1p-52, low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
+        return std::ldexp(1.0 + static_cast<double>(random() >> 12) * 0x1p-52,
+                          low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
     };
     int degenerate = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -74,7 +78,8 @@ TEST(Primitives, SeesTheAreaOfExtremeNeedles) {
 }
 
 TEST(Primitives, NormalsFollowTheRightHand) {
-    const Primitives primitives = oracle::primitives_of({"one", {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, {{0, 1, 2}, {0, 2, 1}}});
+    const Primitives primitives =
+        oracle::primitives_of({"one", {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, {{0, 1, 2}, {0, 2, 1}}});
     EXPECT_EQ(primitives.normal(0), Vec3(0, 0, 1));
     EXPECT_EQ(primitives.normal(1), Vec3(0, 0, -1));
 }

@@ -120,7 +120,8 @@ TEST(TriangleMesh, NamesACoordinateBeyondFloat32) {
 TEST(TriangleMesh, NamesAnIndexOutOfRange) {
     Arrays data;
     data.indices[4] = 9000;
-    expect_error(data.describe(), Status::ERROR_INDEX_OUT_OF_RANGE, "triangle 1: index 9000 is out of range, the mesh has 4 vertices");
+    expect_error(data.describe(), Status::ERROR_INDEX_OUT_OF_RANGE,
+                 "triangle 1: index 9000 is out of range, the mesh has 4 vertices");
     data.indices[4] = 4;
     expect_error(data.describe(), Status::ERROR_INDEX_OUT_OF_RANGE, "index 4");
 }

@@ -48,7 +48,8 @@ TEST(TriangleTest, TellsOfHitsBehindTheOrigin) {
 }
 
 TEST(TriangleTest, CountsCornersAndEdges) {
-    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0)}) {
+    for (const Vec3& p :
+         {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0)}) {
         for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 2, 4), Vec3(-0.5, 0.25, 1)}) {
             EXPECT_TRUE(ask(p - direction, direction).hit);
         }

@@ -18,16 +18,20 @@ using Indices = std::vector<std::uint32_t>;
 
 class MeshFile : public ::testing::Test {
 protected:
-    LoadedMesh load(const std::string& name, const std::string& content) { return load_mesh(files_.write(name, content)); }
+    LoadedMesh load(const std::string& name, const std::string& content) {
+        return load_mesh(files_.write(name, content));
+    }
 
     // The status and message of a file that cannot be loaded.
-    void expect_error(const std::string& name, const std::string& content, Status status, const std::string& part_of_message) {
+    void expect_error(const std::string& name, const std::string& content, Status status,
+                      const std::string& part_of_message) {
         const std::filesystem::path path = files_.write(name, content);
         try {
             load_mesh(path);
             FAIL() << name << " was loaded: " << content.substr(0, 200);
         } catch (const Error& error) {
-            EXPECT_EQ(static_cast<int>(error.status()), static_cast<int>(status)) << error.what() << "\n" << content.substr(0, 200);
+            EXPECT_EQ(static_cast<int>(error.status()), static_cast<int>(status)) << error.what() << "\n"
+                                                                                  << content.substr(0, 200);
             EXPECT_NE(std::string(error.what()).find(part_of_message), std::string::npos) << error.what();
             EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
         }
@@ -45,10 +49,13 @@ void put(std::string& bytes, T value, bool big_endian = false) {
 
 const std::string square_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nf 1 2 3 4\n";
 const std::string square_off = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3\n";
-const std::string square_ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                               "0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3\n";
-const std::string facet_stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0.5\nendloop\nendfacet\nendsolid a\n";
+const std::string square_ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3\n";
+const std::string facet_stl =
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0.5\nendloop\nendfacet\nendsolid "
+    "a\n";
 const std::vector<float> square_vertices = {0, 0, 0, 1, 0, 0, 1, 1, 0.5f, 0, 1, 0};
 
 void expect_square(const LoadedMesh& mesh) {
@@ -58,18 +65,25 @@ void expect_square(const LoadedMesh& mesh) {
     EXPECT_EQ(mesh.face_count, 1u);
 }
 
-std::string binary_ply(bool big_endian, const std::string& coordinate_type, const std::string& count_type, const std::string& index_type) {
+std::string binary_ply(bool big_endian, const std::string& coordinate_type, const std::string& count_type,
+                       const std::string& index_type) {
     std::string bytes = std::string("ply\nformat ") + (big_endian ? "binary_big_endian" : "binary_little_endian") +
-                        " 1.0\ncomment by hand\nelement vertex 4\nproperty " + coordinate_type + " x\nproperty " + coordinate_type +
-                        " y\nproperty uchar red\nproperty " + coordinate_type + " z\nproperty list uchar short extra\nelement face 1\n" +
+                        " 1.0\ncomment by hand\nelement vertex 4\nproperty " + coordinate_type + " x\nproperty " +
+                        coordinate_type + " y\nproperty uchar red\nproperty " + coordinate_type +
+                        " z\nproperty list uchar short extra\nelement face 1\n" +
                         "property float quality\nproperty list " + count_type + " " + index_type +
                         " vertex_indices\nproperty list uchar float texcoord\nend_header\n";
     const auto put_number = [&](const std::string& type, double value) {
-        if (type == "float" || type == "float32") put(bytes, static_cast<float>(value), big_endian);
-        else if (type == "double" || type == "float64") put(bytes, value, big_endian);
-        else if (type.find("char") != std::string::npos || type.find("int8") != std::string::npos) put(bytes, static_cast<std::uint8_t>(value), big_endian);
-        else if (type.find("short") != std::string::npos || type.find("int16") != std::string::npos) put(bytes, static_cast<std::uint16_t>(value), big_endian);
-        else put(bytes, static_cast<std::uint32_t>(value), big_endian);
+        if (type == "float" || type == "float32")
+            put(bytes, static_cast<float>(value), big_endian);
+        else if (type == "double" || type == "float64")
+            put(bytes, value, big_endian);
+        else if (type.find("char") != std::string::npos || type.find("int8") != std::string::npos)
+            put(bytes, static_cast<std::uint8_t>(value), big_endian);
+        else if (type.find("short") != std::string::npos || type.find("int16") != std::string::npos)
+            put(bytes, static_cast<std::uint16_t>(value), big_endian);
+        else
+            put(bytes, static_cast<std::uint32_t>(value), big_endian);
     };
     for (std::size_t i = 0; i < 4; ++i) {
         put_number(coordinate_type, square_vertices[3 * i]);
@@ -120,7 +134,8 @@ TEST_F(MeshFile, ReadsNamesWithSpacesAndLettersOutsideAscii) {
 }
 
 TEST_F(MeshFile, CutsPolygonsIntoFansInTheOrderOfTheirCorners) {
-    const LoadedMesh mesh = load("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 5\nf 3 4 5 1 2\nf 4 3 2\n");
+    const LoadedMesh mesh =
+        load("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 5\nf 3 4 5 1 2\nf 4 3 2\n");
     EXPECT_EQ(mesh.indices, (Indices{0, 1, 4, 2, 3, 4, 2, 4, 0, 2, 0, 1, 3, 2, 1}));
     EXPECT_EQ(mesh.face_of_triangle, (Indices{0, 1, 1, 1, 2}));
     EXPECT_EQ(mesh.face_count, 3u);
@@ -128,7 +143,8 @@ TEST_F(MeshFile, CutsPolygonsIntoFansInTheOrderOfTheirCorners) {
 
 TEST_F(MeshFile, KeepsMeshesThatAreNoManifolds) {
     // Three triangles at one edge, one of them twice, and one the other way round.
-    const LoadedMesh mesh = load("a.off", "OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 1 2\n3 2 1 0\n");
+    const LoadedMesh mesh =
+        load("a.off", "OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 1 2\n3 2 1 0\n");
     EXPECT_EQ(mesh.indices, (Indices{0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 2, 2, 1, 0}));
 }
 
@@ -137,7 +153,8 @@ TEST_F(MeshFile, KeepsFacesWithRepeatedCorners) {
     const LoadedMesh obj = load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 1 2\nf 1 2 3\nf 1 2 2 4\nf 1 2 4\n");
     EXPECT_EQ(obj.indices, expected);
     EXPECT_EQ(obj.face_of_triangle, (Indices{0, 1, 2, 2, 3}));
-    EXPECT_EQ(load("a.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 0 1\n3 0 1 2\n4 0 1 1 3\n3 0 1 3\n").indices, expected);
+    EXPECT_EQ(load("a.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 0 1\n3 0 1 2\n4 0 1 1 3\n3 0 1 3\n").indices,
+              expected);
 }
 
 TEST_F(MeshFile, KeepsVerticesThatNoFaceUses) {
@@ -145,13 +162,19 @@ TEST_F(MeshFile, KeepsVerticesThatNoFaceUses) {
 }
 
 TEST_F(MeshFile, ReadsWhatElseAnObjFileMayHold) {
-    expect_square(load("a.obj", "# made by hand\r\nmtllib nowhere.mtl\r\no square\r\nv 0 0 0 1.0\r\nv 1 0 0 0.5 0.5 0.5\r\nvt 0.5\r\nvn 0 0 1\r\n"
-                                "v +1.0 1e0 5e-1 # corner 7\r\nv\t0\t1.\t.0\r\ng part\r\nusemtl red\r\ns off\r\nl 1 2\r\nf 1/1/1 2//1 \\\r\n  3/1 -1 # 9\r\n"));
+    expect_square(load("a.obj",
+                       "# made by hand\r\nmtllib nowhere.mtl\r\no square\r\nv 0 0 0 1.0\r\nv 1 0 0 0.5 0.5 0.5\r\nvt "
+                       "0.5\r\nvn 0 0 1\r\n"
+                       "v +1.0 1e0 5e-1 # corner 7\r\nv\t0\t1.\t.0\r\ng part\r\nusemtl red\r\ns off\r\nl 1 2\r\nf "
+                       "1/1/1 2//1 \\\r\n  3/1 -1 # 9\r\n"));
     expect_square(load("b.obj", "v 0 0 0\rv 1 0 0\rv 1 1 0.5\rv 0 1 0\rf 1 2 3 4"));
-    EXPECT_EQ(load("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nfo 1 2 3\n").face_count, 1u) << "as the oldest files write faces";
+    EXPECT_EQ(load("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nfo 1 2 3\n").face_count, 1u)
+        << "as the oldest files write faces";
 }
 
-TEST_F(MeshFile, ReadsFacesBeforeTheirVertices) { expect_square(load("a.obj", "f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\n")); }
+TEST_F(MeshFile, ReadsFacesBeforeTheirVertices) {
+    expect_square(load("a.obj", "f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\n"));
+}
 
 TEST_F(MeshFile, CountsNegativeIndicesFromTheLatestVertex) {
     const LoadedMesh mesh = load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4 -1 -2\n");
@@ -159,11 +182,16 @@ TEST_F(MeshFile, CountsNegativeIndicesFromTheLatestVertex) {
 }
 
 TEST_F(MeshFile, ReadsWhatElseAnOffFileMayHold) {
-    expect_square(load("a.off", "# comment\nOFF # and another\n\n4 1 0 # counts\n0 0 0\n\n1 0 0 # first\n1 1 0.5\r\n0 1 0\n4 0 1 2 3 255 0 0\n"));
+    expect_square(load("a.off",
+                       "# comment\nOFF # and another\n\n4 1 0 # counts\n0 0 0\n\n1 0 0 # first\n1 1 0.5\r\n0 1 0\n4 0 "
+                       "1 2 3 255 0 0\n"));
     expect_square(load("b.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4 0 1 2 3"));
     expect_square(load("c.off", "OFF\n4 1\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n4\t0\t1\t2\t3\n"));
-    expect_square(load("d.off", "COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 1 2 3 4\n1 1 0.5 0.5 0.5 0.5 1\n0 1 0\n4 0 1 2 3 0.1 0.2 0.3\n"));
-    expect_square(load("e.off", "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0.5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3 7 7 7\n"));
+    expect_square(
+        load("d.off",
+             "COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 1 2 3 4\n1 1 0.5 0.5 0.5 0.5 1\n0 1 0\n4 0 1 2 3 0.1 0.2 0.3\n"));
+    expect_square(
+        load("e.off", "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0.5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3 7 7 7\n"));
     expect_square(load("f.off", "STOFF\n4 1 0\n0 0 0 0 0\n1 0 0 0 1\n1 1 0.5 1 1\n0 1 0 1 0\n4 0 1 2 3\n"));
     expect_square(load("g.off", square_off)); // none of the headers before may linger
 }
@@ -171,9 +199,11 @@ TEST_F(MeshFile, ReadsWhatElseAnOffFileMayHold) {
 TEST_F(MeshFile, ReadsPlyInEveryEncodingAndType) {
     for (const bool big_endian : {false, true}) {
         for (const char* coordinate : {"float", "double", "float32", "float64"}) {
-            for (const char* count : {"uchar", "char", "uint8", "int8", "short", "ushort", "int16", "uint16", "int", "uint", "int32", "uint32"}) {
+            for (const char* count : {"uchar", "char", "uint8", "int8", "short", "ushort", "int16", "uint16", "int",
+                                      "uint", "int32", "uint32"}) {
                 for (const char* index : {"int", "uint", "int32", "uint32", "short", "ushort", "uchar", "char"}) {
-                    SCOPED_TRACE(std::string(coordinate) + " " + count + " " + index + (big_endian ? ", big endian" : ", little endian"));
+                    SCOPED_TRACE(std::string(coordinate) + " " + count + " " + index +
+                                 (big_endian ? ", big endian" : ", little endian"));
                     expect_square(load("a.ply", binary_ply(big_endian, coordinate, count, index)));
                 }
             }
@@ -182,14 +212,21 @@ TEST_F(MeshFile, ReadsPlyInEveryEncodingAndType) {
 }
 
 TEST_F(MeshFile, ReadsPlyFilesOfAnotherOrder) {
-    expect_square(load("a.ply", "ply\r\nformat ascii 1.0\r\nobj_info x\r\nelement camera 2\r\nproperty float a\r\nproperty list uchar int b\r\nelement face 1\r\n"
-                                "property uchar red\r\nproperty list int uint vertex_index\r\nelement vertex 4\r\nproperty double z\r\nproperty float nx\r\n"
-                                "property double x\r\nproperty double y\r\nend_header\r\n0.5 2 7 8\r\n0.5 0\r\n255 4 0 1 2 3\r\n0 9 0 0\r\n0 9 1 0\r\n0.5 9 1 1\r\n0 9 0 1"));
+    expect_square(load("a.ply",
+                       "ply\r\nformat ascii 1.0\r\nobj_info x\r\nelement camera 2\r\nproperty float a\r\nproperty list "
+                       "uchar int b\r\nelement face 1\r\n"
+                       "property uchar red\r\nproperty list int uint vertex_index\r\nelement vertex 4\r\nproperty "
+                       "double z\r\nproperty float nx\r\n"
+                       "property double x\r\nproperty double y\r\nend_header\r\n0.5 2 7 8\r\n0.5 0\r\n255 4 0 1 2 "
+                       "3\r\n0 9 0 0\r\n0 9 1 0\r\n0.5 9 1 1\r\n0 9 0 1"));
 }
 
 TEST_F(MeshFile, CutsPlyTriangleStripsIntoFaces) {
-    const LoadedMesh mesh = load("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
-                                          "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 4 3 1\n");
+    const LoadedMesh mesh = load(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement "
+        "tristrips 1\n"
+        "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 4 3 1\n");
     EXPECT_EQ(mesh.indices, (Indices{0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 1})) << "all the same way round";
     EXPECT_EQ(mesh.face_of_triangle, (Indices{0, 1, 2, 3}));
 }
@@ -202,17 +239,26 @@ TEST_F(MeshFile, ReadsStlInBothEncodings) {
     EXPECT_EQ(load("b.stl", binary_stl({facet})).vertices, ascii.vertices);
     EXPECT_EQ(load("c.stl", binary_stl({facet}, "solid but binary")).vertices, ascii.vertices);
     // Near and repeated corners, facets without area: nothing is merged, nothing is dropped.
-    const LoadedMesh all = load("d.stl", binary_stl({facet, {1, 1, 1, 1, 1, 1, 2, 2, 2}, {1e-39f, 0, 0, 2e-39f, 0, 0, 0, 1, 0}, facet}));
+    const LoadedMesh all =
+        load("d.stl", binary_stl({facet, {1, 1, 1, 1, 1, 1, 2, 2, 2}, {1e-39f, 0, 0, 2e-39f, 0, 0, 0, 1, 0}, facet}));
     EXPECT_EQ(all.face_count, 4u);
     EXPECT_EQ(all.vertices[18], 1e-39f);
-    EXPECT_EQ(load("e.stl", "SOLID a\n FACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX +0 0 0\nVERTEX 1 0 0\nVERTEX 1 1 5E-1\nENDLOOP\nENDFACET\nENDSOLID").vertices, ascii.vertices);
+    EXPECT_EQ(load("e.stl",
+                   "SOLID a\n FACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX +0 0 0\nVERTEX 1 0 0\nVERTEX 1 1 "
+                   "5E-1\nENDLOOP\nENDFACET\nENDSOLID")
+                  .vertices,
+              ascii.vertices);
     EXPECT_EQ(load("f.stl", facet_stl + facet_stl).face_count, 2u) << "several solids in one file";
 }
 
 TEST_F(MeshFile, NumbersComeOutAsTheNearestFloat) {
-    const LoadedMesh mesh = load("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                                          "property list uchar int vertex_indices\nend_header\n0.1 1e-45 3.4028234e38\n-0.3333333333333 1e-60 123456789\n16777217 -0 1e-5\n3 0 1 2\n");
-    EXPECT_EQ(mesh.vertices, (std::vector<float>{0.1f, 1e-45f, 3.4028234e38f, -0.3333333333333f, 0.0f, 123456789.0f, 16777217.0f, -0.0f, 1e-5f}));
+    const LoadedMesh mesh = load("a.ply",
+                                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                                 "y\nproperty float z\nelement face 1\n"
+                                 "property list uchar int vertex_indices\nend_header\n0.1 1e-45 "
+                                 "3.4028234e38\n-0.3333333333333 1e-60 123456789\n16777217 -0 1e-5\n3 0 1 2\n");
+    EXPECT_EQ(mesh.vertices, (std::vector<float>{0.1f, 1e-45f, 3.4028234e38f, -0.3333333333333f, 0.0f, 123456789.0f,
+                                                 16777217.0f, -0.0f, 1e-5f}));
 }
 
 TEST_F(MeshFile, NamesAMissingFile) {
@@ -269,19 +315,27 @@ TEST_F(MeshFile, NamesContentOfAnotherKind) {
 }
 
 TEST_F(MeshFile, NamesATruncatedFile) {
-    for (std::size_t size = 0; size + 12 < square_ply.size(); size += 3) expect_error("a.ply", square_ply.substr(0, size), Status::ERROR_FILE_FORMAT, "");
-    for (std::size_t size = 8; size + 12 < square_off.size(); size += 3) expect_error("a.off", square_off.substr(0, size), Status::ERROR_FILE_FORMAT, "");
+    for (std::size_t size = 0; size + 12 < square_ply.size(); size += 3)
+        expect_error("a.ply", square_ply.substr(0, size), Status::ERROR_FILE_FORMAT, "");
+    for (std::size_t size = 8; size + 12 < square_off.size(); size += 3)
+        expect_error("a.off", square_off.substr(0, size), Status::ERROR_FILE_FORMAT, "");
     const std::string binary = binary_ply(false, "float", "uchar", "int");
-    for (std::size_t size = 0; size + 9 < binary.size(); ++size) expect_error("a.ply", binary.substr(0, size), Status::ERROR_FILE_FORMAT, "");
+    for (std::size_t size = 0; size + 9 < binary.size(); ++size)
+        expect_error("a.ply", binary.substr(0, size), Status::ERROR_FILE_FORMAT, "");
     const std::string stl = binary_stl({{0, 0, 0, 1, 0, 0, 1, 1, 0.5f}, {0, 0, 0, 1, 0, 0, 1, 1, 0.5f}});
-    for (std::size_t size = 0; size < stl.size(); ++size) expect_error("a.stl", stl.substr(0, size), Status::ERROR_FILE_FORMAT, "");
-    for (std::size_t size = 6; size + 12 < facet_stl.size(); ++size) expect_error("a.stl", facet_stl.substr(0, size), Status::ERROR_FILE_FORMAT, "");
+    for (std::size_t size = 0; size < stl.size(); ++size)
+        expect_error("a.stl", stl.substr(0, size), Status::ERROR_FILE_FORMAT, "");
+    for (std::size_t size = 6; size + 12 < facet_stl.size(); ++size)
+        expect_error("a.stl", facet_stl.substr(0, size), Status::ERROR_FILE_FORMAT, "");
 }
 
 TEST_F(MeshFile, NamesAFileWithoutFaces) {
     expect_error("a.obj", "v 0 0 0\n", Status::ERROR_NO_FACES, "no faces");
     expect_error("a.off", "OFF\n1 0 0\n0 0 0\n", Status::ERROR_NO_FACES, "no faces");
-    expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n", Status::ERROR_NO_FACES, "no faces");
+    expect_error("a.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                 "z\nend_header\n0 0 0\n",
+                 Status::ERROR_NO_FACES, "no faces");
     expect_error("a.stl", binary_stl({}), Status::ERROR_NO_FACES, "no faces");
     expect_error("a.stl", "solid a\nendsolid a\n", Status::ERROR_NO_FACES, "no faces");
 }
@@ -299,11 +353,13 @@ TEST_F(MeshFile, NamesAFaceWithTooFewCorners) {
 }
 
 TEST_F(MeshFile, NamesAnIndexOutOfRange) {
-    expect_error("a.obj", square_obj + "f 1 2 9000\n", Status::ERROR_INDEX_OUT_OF_RANGE, "face 1: index 9000 is out of range, the mesh has 4 vertices");
+    expect_error("a.obj", square_obj + "f 1 2 9000\n", Status::ERROR_INDEX_OUT_OF_RANGE,
+                 "face 1: index 9000 is out of range, the mesh has 4 vertices");
     expect_error("a.obj", square_obj + "f 1 2 0\n", Status::ERROR_INDEX_OUT_OF_RANGE, "face 1: index 0");
     expect_error("a.obj", square_obj + "f 1 2 -5\n", Status::ERROR_INDEX_OUT_OF_RANGE, "face 1: index -5");
     expect_error("a.obj", square_obj + "f 1 2 4294967297\n", Status::ERROR_INDEX_OUT_OF_RANGE, "4294967297");
-    expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", Status::ERROR_INDEX_OUT_OF_RANGE, "face 0: index 3 is out of range, the mesh has 3 vertices");
+    expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", Status::ERROR_INDEX_OUT_OF_RANGE,
+                 "face 0: index 3 is out of range, the mesh has 3 vertices");
     expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", Status::ERROR_INDEX_OUT_OF_RANGE, "index -1");
     std::string ply = square_ply;
     ply.replace(ply.find("4 0 1 2 3"), 9, "4 0 1 2 4");
@@ -315,14 +371,17 @@ TEST_F(MeshFile, NamesAnIndexOutOfRange) {
 
 TEST_F(MeshFile, NamesACoordinateThatIsNotFinite) {
     for (const char* number : {"nan", "inf", "-inf", "1e39", "1e400", "-1e999", "Infinity", "NaN"}) {
-        expect_error("a.obj", "v 0 0 0\nv 1 " + std::string(number) + " 0\nv 0 1 0\nf 1 2 3\n", Status::ERROR_NOT_FINITE, "vertex 1 (line 2)");
-        expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 " + std::string(number) + "\n0 1 0\n3 0 1 2\n", Status::ERROR_NOT_FINITE, "vertex 1");
+        expect_error("a.obj", "v 0 0 0\nv 1 " + std::string(number) + " 0\nv 0 1 0\nf 1 2 3\n",
+                     Status::ERROR_NOT_FINITE, "vertex 1 (line 2)");
+        expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 " + std::string(number) + "\n0 1 0\n3 0 1 2\n",
+                     Status::ERROR_NOT_FINITE, "vertex 1");
         std::string stl = facet_stl;
         stl.replace(stl.find("0.5"), 3, number);
         expect_error("a.stl", stl, Status::ERROR_NOT_FINITE, "face 0");
     }
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    expect_error("b.stl", binary_stl({{0, 0, 0, 1, 0, 0, 1, nan, 0}}), Status::ERROR_NOT_FINITE, "face 0: coordinate y of corner 2 is NaN");
+    expect_error("b.stl", binary_stl({{0, 0, 0, 1, 0, 0, 1, nan, 0}}), Status::ERROR_NOT_FINITE,
+                 "face 0: coordinate y of corner 2 is NaN");
     std::string ply = binary_ply(false, "double", "uchar", "int");
     const double infinite = std::numeric_limits<double>::infinity();
     std::string bytes;
@@ -333,7 +392,8 @@ TEST_F(MeshFile, NamesACoordinateThatIsNotFinite) {
 
 TEST_F(MeshFile, NamesAWordThatIsNoNumber) {
     for (const char* word : {"abc", "1,5", "0x10", "1.5f", "--1", "1e", "+-1"}) {
-        expect_error("a.obj", "v 0 0 0\nv 1 " + std::string(word) + " 0\nv 0 1 0\nf 1 2 3\n", Status::ERROR_FILE_FORMAT, "vertex 1 (line 2)");
+        expect_error("a.obj", "v 0 0 0\nv 1 " + std::string(word) + " 0\nv 0 1 0\nf 1 2 3\n", Status::ERROR_FILE_FORMAT,
+                     "vertex 1 (line 2)");
     }
     expect_error("a.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", Status::ERROR_FILE_FORMAT, "vertex 1 (line 2)");
     expect_error("a.obj", square_obj + "f 1 x 3\n", Status::ERROR_FILE_FORMAT, "face 1 (line 6)");
@@ -371,9 +431,14 @@ TEST_F(MeshFile, NamesPlyHeadersItCannotFollow) {
 // Every byte changed or cut: either a mesh that can be used, or an Error; never a crash, never a word printed.
 TEST_F(MeshFile, SurvivesDamagedFiles) {
     const std::vector<std::pair<std::string, std::string>> originals = {
-        {"a.obj", square_obj + "vt 0 0\nvn 0 0 1\nf 1/1/1 -1 3//1\n"}, {"a.off", square_off}, {"b.off", "COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2 9 9 9\n"},
-        {"a.ply", square_ply}, {"b.ply", binary_ply(false, "float", "uchar", "int")}, {"c.ply", binary_ply(true, "double", "int", "uint")},
-        {"a.stl", facet_stl}, {"b.stl", binary_stl({{0, 0, 0, 1, 0, 0, 1, 1, 0.5f}})}};
+        {"a.obj", square_obj + "vt 0 0\nvn 0 0 1\nf 1/1/1 -1 3//1\n"},
+        {"a.off", square_off},
+        {"b.off", "COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2 9 9 9\n"},
+        {"a.ply", square_ply},
+        {"b.ply", binary_ply(false, "float", "uchar", "int")},
+        {"c.ply", binary_ply(true, "double", "int", "uint")},
+        {"a.stl", facet_stl},
+        {"b.stl", binary_stl({{0, 0, 0, 1, 0, 0, 1, 1, 0.5f}})}};
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     std::mt19937 random(5);
@@ -384,11 +449,21 @@ TEST_F(MeshFile, SurvivesDamagedFiles) {
             for (unsigned change = 0; change <= trial % 3u; ++change) {
                 const std::size_t at = random() % damaged.size();
                 switch (random() % 5) {
-                case 0: damaged[at] = static_cast<char>(random()); break;
-                case 1: damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8)); break;
-                case 2: damaged.erase(at, 1 + random() % 8); break;
-                case 3: damaged.insert(at, content.substr(random() % content.size(), random() % 20)); break;
-                default: damaged.resize(at + 1); break;
+                    case 0:
+                        damaged[at] = static_cast<char>(random());
+                        break;
+                    case 1:
+                        damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+                        break;
+                    case 2:
+                        damaged.erase(at, 1 + random() % 8);
+                        break;
+                    case 3:
+                        damaged.insert(at, content.substr(random() % content.size(), random() % 20));
+                        break;
+                    default:
+                        damaged.resize(at + 1);
+                        break;
                 }
                 if (damaged.empty()) damaged = " ";
             }
@@ -396,7 +471,8 @@ TEST_F(MeshFile, SurvivesDamagedFiles) {
                 const LoadedMesh mesh = load(name, damaged);
                 ++loaded;
                 ASSERT_EQ(mesh.indices.size(), 3 * mesh.face_of_triangle.size());
-                for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertex_count()) << name << "\n" << damaged;
+                for (const std::uint32_t index : mesh.indices)
+                    ASSERT_LT(index, mesh.vertex_count()) << name << "\n" << damaged;
                 for (const std::uint32_t face : mesh.face_of_triangle) ASSERT_LT(face, mesh.face_count);
                 for (const float x : mesh.vertices) ASSERT_TRUE(std::isfinite(x));
             } catch (const Error&) {
@@ -427,9 +503,10 @@ TEST_F(MeshFile, DoesNotCareAboutTheLocale) {
 }
 
 TEST_F(MeshFile, LoadsInManyThreadsAtOnce) {
-    const std::vector<std::filesystem::path> paths = {files_.write("a.obj", square_obj), files_.write("a.off", square_off),
-                                                      files_.write("b.off", "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0.5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n"),
-                                                      files_.write("a.ply", square_ply), files_.write("b.ply", binary_ply(true, "double", "uchar", "uint"))};
+    const std::vector<std::filesystem::path> paths = {
+        files_.write("a.obj", square_obj), files_.write("a.off", square_off),
+        files_.write("b.off", "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0.5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n"),
+        files_.write("a.ply", square_ply), files_.write("b.ply", binary_ply(true, "double", "uchar", "uint"))};
     std::vector<std::thread> threads;
     std::vector<int> faults(4, 0);
     for (std::size_t t = 0; t < faults.size(); ++t) {

@@ -15,7 +15,8 @@ namespace {
 std::filesystem::path file_named(const std::string& name) {
     const std::filesystem::path folder = oracle::data_folder();
     std::error_code error;
-    return !folder.empty() && std::filesystem::is_regular_file(folder / name, error) ? folder / name : std::filesystem::path();
+    return !folder.empty() && std::filesystem::is_regular_file(folder / name, error) ? folder / name
+                                                                                     : std::filesystem::path();
 }
 
 TEST(RealMeshes, BunnyHasItsTriangles) {

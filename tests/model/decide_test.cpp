@@ -43,7 +43,8 @@ TEST(Decide, TakesTheSmallestTotalForEachNumberOfRays) {
 
 TEST(Decide, SettlesTiesByOrder) {
     const std::vector<Candidate> equals = {candidate(Structure::linear_scan, 5, 5), candidate(Structure::bvh, 1, 1),
-                                           candidate(Structure::kd_tree, 1, 1), candidate(Structure::uniform_grid, 1, 1)};
+                                           candidate(Structure::kd_tree, 1, 1),
+                                           candidate(Structure::uniform_grid, 1, 1)};
     EXPECT_EQ(decide(equals, 100), std::optional<std::size_t>(1));
     EXPECT_EQ(decide(equals, std::nullopt), std::optional<std::size_t>(1));
 }
@@ -74,7 +75,8 @@ TEST(Decide, WithAnUnknownNumberOfRaysTakesTheSmallestWorstRatio) {
 
 TEST(Decide, AnUnknownNumberIsWeighedNoFurtherThanAHundredMillionRays) {
     // From 10^9 rays on the second would win by far, but that is not imagined.
-    const std::vector<Candidate> two = {candidate(Structure::uniform_grid, 1, 2.0), candidate(Structure::bvh, 1e9, 1.0)};
+    const std::vector<Candidate> two = {candidate(Structure::uniform_grid, 1, 2.0),
+                                        candidate(Structure::bvh, 1e9, 1.0)};
     EXPECT_EQ(chosen(two, std::nullopt), Structure::uniform_grid);
     EXPECT_EQ(chosen(two, 2'000'000'000), Structure::bvh);
 }

@@ -95,9 +95,7 @@ TEST(HapalaRule, KeepsTheGridUpToTheCriticalNumberAndNotAbove) {
     }
 }
 
-TEST(HapalaRule, CountsAnUnknownNumberAsInfinitelyMany) {
-    EXPECT_FALSE(decision_for(rows[0], std::nullopt).keep_grid);
-}
+TEST(HapalaRule, CountsAnUnknownNumberAsInfinitelyMany) { EXPECT_FALSE(decision_for(rows[0], std::nullopt).keep_grid); }
 
 TEST(HapalaRule, KeepsTheGridForEverWhenItsRaysAreNoDearer) {
     const HapalaConstants constants{60.0, 100.0};

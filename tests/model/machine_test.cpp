@@ -53,9 +53,10 @@ TEST(ThisMachine, IsKnown) {
 }
 
 TEST(CpuIdentity, ReadsAnArmProcessor) {
-    std::istringstream cpuinfo("processor\t: 0\nBogoMIPS\t: 243.75\nFeatures\t: fp asimd\nCPU implementer\t: 0x41\n"
-                               "CPU architecture: 8\nCPU variant\t: 0x3\nCPU part\t: 0xd0c\nCPU revision\t: 1\n\n"
-                               "processor\t: 1\nCPU part\t: 0xd05\n");
+    std::istringstream cpuinfo(
+        "processor\t: 0\nBogoMIPS\t: 243.75\nFeatures\t: fp asimd\nCPU implementer\t: 0x41\n"
+        "CPU architecture: 8\nCPU variant\t: 0x3\nCPU part\t: 0xd0c\nCPU revision\t: 1\n\n"
+        "processor\t: 1\nCPU part\t: 0xd05\n");
     const CpuIdentity cpu = arm_identity(cpuinfo);
     EXPECT_EQ(cpu.vendor, "arm-0x41");
     EXPECT_EQ(cpu.family, 8u);

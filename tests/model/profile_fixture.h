@@ -8,8 +8,8 @@ namespace raywise {
 inline Profile sample_profile() {
     Profile profile;
     profile.machine = this_machine();
-    profile.provenance = {"raywise-calibrate test", "raywise-calibrate measure --quick", "2026-11-22T10:20:30Z", "quick", 0.021,
-                          4.5};
+    profile.provenance = {
+        "raywise-calibrate test", "raywise-calibrate measure --quick", "2026-11-22T10:20:30Z", "quick", 0.021, 4.5};
     double next = 1.0;
     const auto line = [&next] {
         next += 0.37;

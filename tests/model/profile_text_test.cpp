@@ -11,8 +11,9 @@ namespace {
 TEST(ProfileText, FitsHundredColumnsAndNamesEverything) {
     Profile profile = sample_profile();
     profile.status = Status::PROFILE_MACHINE;
-    profile.reason = "/somewhere/else.json: machine.threads: the profile has 64, this machine 2, and more words to break "
-                     "the line at, so that it has to be continued";
+    profile.reason =
+        "/somewhere/else.json: machine.threads: the profile has 64, this machine 2, and more words to break "
+        "the line at, so that it has to be continued";
     const std::string text = to_text(profile);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;

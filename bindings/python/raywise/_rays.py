@@ -1,0 +1,99 @@
+"""Rays as callers have them, as rw_rays and as rw_ray."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _declarations as c
+from ._arrays import Array, as_floats, expressible, input_array
+from ._words import sized
+
+Shape = Tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Rays of any leading shape: () for a single one, (n,) for a list, (h, w) for an image."""
+
+    shape: Shape
+    parts: Dict[str, Array]  # origins, directions and, where given, tmin and tmax; not yet broadcast
+    dtype: "np.dtype[np.floating]"  # of the answers: float32 when origins and directions are
+
+    @property
+    def count(self) -> int:
+        return math.prod(self.shape)
+
+    def rows(self) -> Dict[str, Array]:
+        """The parts broadcast to (count, 3) and (count,). A copy is made only where strides cannot say it."""
+        rows = {}
+        for name, part in self.parts.items():
+            tail = tail_of(name)
+            whole = np.broadcast_to(part, self.shape + tail)
+            rows[name] = expressible(whole if len(self.shape) == 1 else whole.reshape((self.count,) + tail))
+        return rows
+
+    def single(self) -> c.rw_ray:
+        """The one ray of shape ()."""
+        ray = c.rw_ray()
+        ray.origin[:] = self.parts["origins"].tolist()
+        ray.direction[:] = self.parts["directions"].tolist()
+        ray.tmin = float(self.parts["tmin"]) if "tmin" in self.parts else 0.0
+        ray.tmax = float(self.parts["tmax"]) if "tmax" in self.parts else math.inf
+        return ray
+
+
+def as_rays(
+    origins: npt.ArrayLike,
+    directions: npt.ArrayLike,
+    tmin: Optional[npt.ArrayLike] = None,
+    tmax: Optional[npt.ArrayLike] = None,
+) -> Rays:
+    """Checks types and shapes. ValueError names the arguments and shapes that do not fit."""
+    parts = {"origins": as_floats(origins, "origins"), "directions": as_floats(directions, "directions")}
+    for name, values in (("tmin", tmin), ("tmax", tmax)):
+        if values is not None:
+            parts[name] = as_floats(values, name)
+    for name in ("origins", "directions"):
+        if parts[name].ndim == 0 or parts[name].shape[-1] != 3:
+            raise ValueError(f"{name} has to have the shape (3,) or (..., 3), not {parts[name].shape}")
+    try:
+        shape = np.broadcast_shapes(*(lead_of(name, part) for name, part in parts.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} of shape {part.shape}" for name, part in parts.items())
+        raise ValueError(f"these do not fit together: {shapes}") from None
+    return Rays(shape, parts, np.result_type(parts["origins"], parts["directions"]))
+
+
+def tail_of(name: str) -> Shape:
+    return (3,) if name in ("origins", "directions") else ()
+
+
+def lead_of(name: str, part: Array) -> Shape:
+    return part.shape[:-1] if tail_of(name) else part.shape
+
+
+def describe(rows: Dict[str, Array], count: int) -> c.rw_rays:
+    """rw_rays over rows, which the caller keeps for as long as C reads them."""
+    rays = sized(c.rw_rays)
+    rays.count = count
+    rays.origin = input_array(rows["origins"])
+    rays.direction = input_array(rows["directions"])
+    if "tmin" in rows:
+        rays.tmin = input_array(rows["tmin"])
+    if "tmax" in rows:
+        rays.tmax = input_array(rows["tmax"])
+    return rays
+
+
+def sample_of(sample: "Tuple[npt.ArrayLike, ...]") -> Tuple[c.rw_rays, List[Array]]:
+    """rw_rays over (origins, directions[, tmin[, tmax]]) and the arrays to keep meanwhile."""
+    if not isinstance(sample, tuple) or not 2 <= len(sample) <= 4:
+        raise TypeError("sample has to be a tuple (origins, directions), (..., tmin) or (..., tmin, tmax)")
+    rays = as_rays(*sample)
+    rows = rays.rows()
+    return describe(rows, rays.count), list(rows.values())

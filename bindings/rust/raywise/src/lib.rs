@@ -1,0 +1,97 @@
+//! Ray queries against triangle meshes, with a structure chosen by measurement.
+//!
+//! raywise knows what each structure costs on this machine and how many rays are coming, and takes what answers soonest.
+//! The choice changes how long an answer takes and never a bit of it.
+//!
+//! ```
+//! use raywise::{ExpectedRays, Ray, RayKind, RayQueries, Rays, SceneBuilder};
+//!
+//! // A square of two triangles at z = 0.
+//! let vertices = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let triangles = [[0_u32, 1, 2], [0, 2, 3]];
+//!
+//! let mut builder = SceneBuilder::new()?;
+//! builder.add_triangles(&vertices, &triangles)?;
+//! builder.expect_rays(&ExpectedRays::new(10_000).kind(RayKind::Camera))?;
+//! let scene = builder.commit()?;
+//!
+//! // One ray.
+//! let hit = scene.intersect(&Ray::new([0.5, 0.25, 2.0], [0.0, 0.0, -1.0]))?.expect("the square is below");
+//! assert_eq!((hit.t, hit.primitive, hit.normal), (2.0, 0, [0.0, 0.0, 1.0]));
+//!
+//! // Many rays: one origin for all, one direction each.
+//! let directions = [[0.0_f32, 0.0, -1.0], [0.0, 0.0, 1.0]];
+//! let hits = scene.intersect_batch(&Rays::new([0.5, 0.25, 2.0], &directions)?)?;
+//! assert!(hits.get(0).is_some() && hits.get(1).is_none());
+//!
+//! // Why this structure?
+//! println!("{}", scene.explain()?);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Where things are
+//!
+//! * [`SceneBuilder`] is filled and committed; [`Scene`] is what comes out; [`View`] is a scene seen from one place.
+//! * [`RayQueries`] has the questions: closest hit, any hit, all hits, for one ray and for many.
+//! * [`OneShot`] answers one batch and keeps nothing.
+//! * [`Profile`] holds the constants that decide; [`RayQueries::candidates`] and [`RayQueries::explain`] tell how.
+//!
+//! Each item names the function of the C library behind it; `raywise.h` holds the contract.
+//!
+//! # Threads
+//!
+//! Scenes, views, profiles and meshes can be shared and sent freely. A batch uses as many threads as the process may use,
+//! or as many as [`QueryOptions::threads`] allows, or the host's own ([`QueryOptions::parallel_for`]).
+
+#![deny(missing_docs)]
+#![warn(missing_debug_implementations)]
+
+mod arrays;
+mod builder;
+mod candidate;
+mod element;
+mod error;
+mod expected;
+mod handle;
+mod hit;
+mod hits;
+mod library;
+mod mesh;
+mod once;
+mod options;
+mod parallel;
+mod profile;
+mod questions;
+mod ray;
+mod rays;
+mod scene;
+mod statistics;
+mod status;
+mod structures;
+mod text;
+mod triangles;
+mod view;
+
+pub use arrays::{Indices, Scalars, Vectors};
+pub use builder::{CommitError, SceneBuilder};
+pub use candidate::Candidate;
+pub use element::{Flag, Float, Index};
+pub use error::{Error, Result};
+pub use expected::{Effort, ExpectedRays, RayKind, Rule};
+pub use hit::Hit;
+pub use hits::{AllHits, Hits, HitsMut};
+pub use library::{abi_version, version, Version, HEADER_VERSION};
+pub use mesh::Mesh;
+pub use once::OneShot;
+pub use options::{CommitOptions, QueryOptions};
+pub use parallel::ParallelFor;
+pub use profile::{LoadedProfile, Profile, ProfileInfo, ProfileSource, ProfileWarning};
+pub use questions::RayQueries;
+pub use ray::Ray;
+pub use rays::{PerRayNumber, PerRayVector, Rays};
+pub use scene::{Bounds, Scene};
+pub use statistics::{GridStatistics, SceneStatistics};
+pub use status::Status;
+pub use structures::structures;
+pub use triangles::{SharedTriangles, Triangles};
+pub use view::{View, ViewOptions};

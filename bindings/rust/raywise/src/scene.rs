@@ -1,0 +1,143 @@
+//! Committed scenes.
+
+use std::sync::Arc;
+
+use raywise_sys as sys;
+
+use crate::builder::KeepAlive;
+use crate::handle::Handle;
+use crate::library::{check, size_of_struct};
+use crate::questions::functions::{Asked, Functions};
+use crate::questions::functions_of;
+use crate::{CommitOptions, GridStatistics, Result, SceneStatistics, View, ViewOptions};
+
+/// Geometry with the structure chosen for it (`rw_scene`). It never changes, and any number of threads may ask it at the
+/// same time; the questions are in [`RayQueries`](crate::RayQueries). Cloning shares the scene (`rw_scene_retain`).
+///
+/// ```
+/// fn can_be_shared<T: Send + Sync + Clone>() {}
+/// can_be_shared::<raywise::Scene>();
+/// can_be_shared::<raywise::View>();
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scene {
+    // Released first: the scene reads what is kept.
+    handle: Handle<sys::rw_scene>,
+    _keep: Arc<[KeepAlive]>,
+}
+
+/// The box around all triangles that can be hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The least coordinates; infinite in an empty scene.
+    pub lower: [f64; 3],
+    /// The greatest coordinates; minus infinite in an empty scene.
+    pub upper: [f64; 3],
+}
+
+impl Bounds {
+    /// Whether there is nothing inside.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        (0..3).any(|axis| self.lower[axis] > self.upper[axis])
+    }
+}
+
+impl Scene {
+    pub(crate) fn new(handle: Handle<sys::rw_scene>, keep: Vec<KeepAlive>) -> Self {
+        Scene { handle, _keep: keep.into() }
+    }
+
+    /// Tells the box around all triangles that can be hit. Wraps `rw_scene_bounds`.
+    pub fn bounds(&self) -> Result<Bounds> {
+        let mut bounds = Bounds { lower: [0.0; 3], upper: [0.0; 3] };
+        // SAFETY: the scene lives, and both places have room for three numbers.
+        check(unsafe { sys::rw_scene_bounds(self.as_ptr(), bounds.lower.as_mut_ptr(), bounds.upper.as_mut_ptr()) })?;
+        Ok(bounds)
+    }
+
+    /// Tells what is in the scene and what it has cost. Wraps `rw_scene_get_statistics`.
+    pub fn statistics(&self) -> Result<SceneStatistics> {
+        let mut raw = sys::rw_scene_statistics {
+            struct_size: size_of_struct::<sys::rw_scene_statistics>(),
+            ..sys::rw_scene_statistics::default()
+        };
+        // SAFETY: the scene lives, and `raw` says how large it is.
+        check(unsafe { sys::rw_scene_get_statistics(self.as_ptr(), &mut raw) })?;
+        // SAFETY: the library has just filled it, and its texts are constants.
+        Ok(unsafe { SceneStatistics::from_raw(&raw) })
+    }
+
+    /// Tells the statistics of the grid in use. Wraps `rw_scene_get_grid_statistics`.
+    ///
+    /// # Errors
+    /// [`Status::WRONG_STRUCTURE`](crate::Status::WRONG_STRUCTURE) when the structure is not the uniform grid.
+    pub fn grid_statistics(&self) -> Result<GridStatistics> {
+        let mut raw = sys::rw_grid_statistics {
+            struct_size: size_of_struct::<sys::rw_grid_statistics>(),
+            ..sys::rw_grid_statistics::default()
+        };
+        // SAFETY: the scene lives, and `raw` says how large it is.
+        check(unsafe { sys::rw_scene_get_grid_statistics(self.as_ptr(), &mut raw) })?;
+        Ok(GridStatistics::from_raw(&raw))
+    }
+
+    /// Makes a view of the scene, and builds a structure for it when that pays. Wraps `rw_view_create`.
+    ///
+    /// # Errors
+    /// As [`view_with`](Scene::view_with).
+    pub fn view(&self, options: &ViewOptions) -> Result<View> {
+        self.view_with(options, CommitOptions::new())
+    }
+
+    /// [`view`](Scene::view) with a number of threads, progress, cancelling or the host's threads. Wraps
+    /// `rw_view_create`.
+    ///
+    /// # Errors
+    /// [`Status::RAY_COUNT`](crate::Status::RAY_COUNT), `UNKNOWN_STRUCTURE`, `NOT_FINITE` (origin or direction),
+    /// `MEMORY_LIMIT`, `CANCELLED`, `OUT_OF_MEMORY`, `HOST_PARALLEL` or `INVALID_ARGUMENT`.
+    ///
+    /// # Panics
+    /// When the caller's closures panic; the build is stopped first.
+    pub fn view_with(&self, options: &ViewOptions, commit: CommitOptions<'_>) -> Result<View> {
+        let handle = options.with_raw(|options| {
+            commit.with_raw(|commit| {
+                // SAFETY: the scene lives; the options live through the call.
+                Handle::create(|view| unsafe { sys::rw_view_create(self.as_ptr(), options, commit, view) })
+            })
+        })?;
+        Ok(View::new(handle, self.clone()))
+    }
+}
+
+impl Asked for Scene {
+    type Raw = sys::rw_scene;
+
+    const FUNCTIONS: Functions<sys::rw_scene> = functions_of!(
+        rw_scene_intersect,
+        rw_scene_occluded,
+        rw_scene_intersect_all,
+        rw_scene_intersect_batch,
+        rw_scene_occluded_batch,
+        rw_scene_intersect_all_batch,
+        rw_scene_candidate_count,
+        rw_scene_get_candidate,
+        rw_scene_explain
+    );
+
+    fn as_ptr(&self) -> *const sys::rw_scene {
+        self.handle.as_ptr()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_is_empty_when_it_is_inside_out() {
+        let infinity = f64::INFINITY;
+        assert!(Bounds { lower: [infinity; 3], upper: [-infinity; 3] }.is_empty());
+        assert!(!Bounds { lower: [1.0; 3], upper: [1.0; 3] }.is_empty());
+    }
+}

@@ -1,0 +1,100 @@
+//! The cases that the C, Python and Rust interfaces answer alike, bit by bit: tests/parity/cases.json of the project.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use common::{bits, columns, scene_with, Result, TestMesh};
+use raywise::{Hit, Ray, RayQueries, Rays};
+use serde_json::Value;
+
+struct Case {
+    mesh: String,
+    ray: Ray,
+    hit: Option<Hit>,
+}
+
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(text) if text == "inf" => f64::INFINITY,
+        Value::String(text) if text == "-inf" => f64::NEG_INFINITY,
+        Value::String(text) if text == "nan" => f64::NAN,
+        other => other.as_f64().unwrap_or_else(|| panic!("{other} is not a number")),
+    }
+}
+
+fn three<T: Copy + Default>(value: &Value, read: impl Fn(&Value) -> T) -> [T; 3] {
+    let list = value.as_array().unwrap_or_else(|| panic!("{value} is not a list"));
+    assert_eq!(list.len(), 3, "{value}");
+    [0, 1, 2].map(|index| read(&list[index]))
+}
+
+/// A float64 as the hexadecimal digits of its bits.
+fn from_bits(value: &Value) -> f64 {
+    let text = value.as_str().unwrap_or_else(|| panic!("{value} is not a text"));
+    let digits = text.strip_prefix("0x").unwrap_or_else(|| panic!("{text} does not begin with 0x"));
+    f64::from_bits(u64::from_str_radix(digits, 16).unwrap_or_else(|cause| panic!("{text}: {cause}")))
+}
+
+fn id(value: &Value) -> u32 {
+    value.as_u64().and_then(|id| id.try_into().ok()).unwrap_or_else(|| panic!("{value} is not an id"))
+}
+
+fn read() -> (BTreeMap<String, TestMesh>, Vec<Case>) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/parity/cases.json");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|cause| panic!("{}: {cause}", path.display()));
+    let file: Value = serde_json::from_str(&text).unwrap();
+    let list = |value: &Value| value.as_array().unwrap_or_else(|| panic!("{value} is not a list")).clone();
+
+    let meshes = list(&file["meshes"]).into_iter().map(|mesh| {
+        let vertices = list(&mesh["vertices"]).iter().map(|vertex| three(vertex, number)).collect();
+        let triangles = list(&mesh["triangles"]).iter().map(|corners| three(corners, id)).collect();
+        (mesh["name"].as_str().unwrap().to_owned(), TestMesh { vertices, triangles })
+    });
+    let cases = list(&file["cases"]).into_iter().map(|case| Case {
+        mesh: case["mesh"].as_str().unwrap().to_owned(),
+        ray: Ray::new(three(&case["origin"], number), three(&case["direction"], number))
+            .between(number(&case["tmin"]), number(&case["tmax"])),
+        hit: Some(&case["hit"]).filter(|hit| !hit.is_null()).map(|hit| Hit {
+            t: from_bits(&hit["t"]),
+            u: from_bits(&hit["u"]),
+            v: from_bits(&hit["v"]),
+            normal: three(&hit["normal"], from_bits),
+            instance: None,
+            geometry: id(&hit["geometry"]),
+            primitive: id(&hit["primitive"]),
+        }),
+    });
+    (meshes.collect(), cases.collect())
+}
+
+#[test]
+fn every_structure_answers_the_shared_cases_bit_by_bit() -> Result {
+    let (meshes, cases) = read();
+    assert!(!cases.is_empty());
+    for (name, mesh) in &meshes {
+        let cases: Vec<&Case> = cases.iter().filter(|case| case.mesh == *name).collect();
+        assert!(!cases.is_empty(), "no case asks the mesh {name}");
+        let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
+        let (origins, directions) = columns(&rays);
+        let tmin: Vec<f64> = rays.iter().map(|ray| ray.tmin).collect();
+        let tmax: Vec<f64> = rays.iter().map(|ray| ray.tmax).collect();
+        let batch = Rays::new(&origins, &directions)?.with_tmin(&tmin)?.with_tmax(&tmax)?;
+
+        for structure in raywise::structures()? {
+            let scene = scene_with(structure, mesh)?;
+            let hits = scene.intersect_batch(&batch)?;
+            let occluded = scene.occluded_batch(&batch)?;
+            for (index, case) in cases.iter().enumerate() {
+                let what = || format!("{structure}, mesh {name}, case {index}: {:?}", case.ray);
+                assert_eq!(bits(scene.intersect(&case.ray)?), bits(case.hit), "{}", what());
+                assert_eq!(bits(hits.get(index)), bits(case.hit), "batch, {}", what());
+                assert_eq!(scene.occluded(&case.ray)?, case.hit.is_some(), "{}", what());
+                assert_eq!(occluded[index], case.hit.is_some(), "batch, {}", what());
+            }
+        }
+    }
+    assert!(cases.iter().all(|case| meshes.contains_key(&case.mesh)), "a case asks a mesh that is not there");
+    Ok(())
+}

@@ -1,0 +1,181 @@
+#include "measure/library.h"
+
+#include "base/structure.h"
+
+#include <cstring>
+
+namespace raywise::calibration {
+namespace {
+
+// A zeroed struct that carries its size, as every struct of the interface wants.
+template <class T>
+T sized() {
+    T value{};
+    value.struct_size = sizeof(T);
+    return value;
+}
+
+rw_array doubles(const std::vector<double>& values, std::int64_t components, std::uint64_t step) {
+    rw_array array{};
+    array.data = values.data();
+    array.type = RW_FLOAT64;
+    array.stride = static_cast<std::int64_t>(sizeof(double)) * components * static_cast<std::int64_t>(step);
+    return array;
+}
+
+rw_rays rays_of(const RaySelection& selection) {
+    rw_rays rays = sized<rw_rays>();
+    rays.count = selection.count;
+    rays.origin = doubles(selection.rays.origin, 3, selection.step);
+    rays.direction = doubles(selection.rays.direction, 3, selection.step);
+    rays.tmin = doubles(selection.rays.tmin, 1, selection.step);
+    rays.tmax = doubles(selection.rays.tmax, 1, selection.step);
+    return rays;
+}
+
+rw_output output_to(void* data, std::int32_t type) {
+    rw_output output{};
+    output.data = data;
+    output.type = type;
+    return output;
+}
+
+rw_triangles triangles_of(const workloads::Mesh& mesh) {
+    rw_triangles triangles = sized<rw_triangles>();
+    triangles.flags = RW_TRIANGLES_SHARED;
+    triangles.vertex_count = mesh.vertex_count();
+    triangles.vertices.data = mesh.vertices.data();
+    triangles.vertices.type = RW_FLOAT32;
+    triangles.triangle_count = mesh.triangle_count();
+    triangles.indices.data = mesh.indices.data();
+    triangles.indices.type = RW_UINT32;
+    return triangles;
+}
+
+} // namespace
+
+void check(std::int32_t status, const char* function) {
+    if (status == RW_OK) return;
+    const char* message = rw_last_error_message();
+    throw LibraryError(std::string(function) + ": " + (*message != '\0' ? message : rw_status_text(status)));
+}
+
+void check_structures() {
+    std::uint32_t count = 0;
+    check(rw_structure_count(&count), "rw_structure_count");
+    bool same = count == structure_count;
+    for (std::uint32_t i = 0; same && i < count; ++i) {
+        const char* name = nullptr;
+        check(rw_structure_name(i, &name), "rw_structure_name");
+        same = std::strcmp(name, structure_names[i]) == 0;
+    }
+    if (!same)
+        throw LibraryError("libraywise has other structures than this program was built for; install them together");
+}
+
+Handle<rw_profile> builtin_profile() {
+    // The only way the interface has; nothing else in this process reads the variable at the same time.
+    ::setenv("RAYWISE_CALIBRATION", "builtin", 1);
+    rw_profile* profile = nullptr;
+    check(rw_profile_load(nullptr, &profile), "rw_profile_load");
+    return Handle<rw_profile>(profile);
+}
+
+void Built::ask(const RaySelection& selection, bool any_hit, std::uint32_t threads) {
+    rw_query_options options = sized<rw_query_options>();
+    options.threads = threads;
+    const rw_rays rays = rays_of(selection);
+    if (any_hit) {
+        occluded_.resize(selection.count);
+        check(occluded(rays, output_to(occluded_.data(), RW_UINT8), options), "rw_scene_occluded_batch");
+        return;
+    }
+    t_.resize(selection.count);
+    primitive_.resize(selection.count);
+    rw_hits hits = sized<rw_hits>();
+    hits.t = output_to(t_.data(), RW_FLOAT32);
+    hits.primitive = output_to(primitive_.data(), RW_UINT32);
+    check(intersect(rays, hits, options), "rw_scene_intersect_batch");
+}
+
+std::vector<workloads::SurfacePoint> Built::closest(const workloads::Rays& rays, std::uint32_t threads) {
+    rw_query_options options = sized<rw_query_options>();
+    options.threads = threads;
+    std::vector<double> t(rays.size()), normal(rays.size() * 3);
+    rw_hits hits = sized<rw_hits>();
+    hits.t = output_to(t.data(), RW_FLOAT64);
+    hits.normal = output_to(normal.data(), RW_FLOAT64);
+    check(intersect(rays_of({rays, rays.size()}), hits, options), "rw_scene_intersect_batch");
+    std::vector<workloads::SurfacePoint> points;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        points.push_back({t[i], Vec3(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2])});
+    }
+    return points;
+}
+
+BuiltScene::BuiltScene(const workloads::Mesh& mesh, const char* structure, const rw_profile* profile,
+                       std::uint32_t threads) {
+    rw_scene* scene = nullptr;
+    check(rw_scene_create(profile, &scene), "rw_scene_create");
+    scene_.reset(scene);
+    const rw_triangles triangles = triangles_of(mesh);
+    check(rw_scene_add_triangles(scene, &triangles, nullptr), "rw_scene_add_triangles");
+    check(rw_scene_set_structure(scene, structure), "rw_scene_set_structure");
+    rw_commit_options options = sized<rw_commit_options>();
+    options.threads = threads;
+    check(rw_scene_commit(scene, &options), "rw_scene_commit");
+
+    rw_scene_statistics statistics = sized<rw_scene_statistics>();
+    check(rw_scene_get_statistics(scene, &statistics), "rw_scene_get_statistics");
+    build_ns_ = statistics.build_ns;
+    bytes_ = static_cast<double>(statistics.structure_bytes);
+    triangles_ =
+        static_cast<double>(statistics.triangle_count - statistics.degenerate_triangles - statistics.invalid_triangles);
+}
+
+std::int32_t BuiltScene::intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const {
+    return rw_scene_intersect_batch(scene_.get(), &rays, &hits, &options);
+}
+
+std::int32_t BuiltScene::occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const {
+    return rw_scene_occluded_batch(scene_.get(), &rays, &output, &options);
+}
+
+BuiltView::BuiltView(const BuiltScene& scene, const ViewPlace& place, const char* structure, std::uint32_t threads) {
+    rw_view_options options = sized<rw_view_options>();
+    options.kind = RW_VIEW_POINT;
+    for (int axis = 0; axis < 3; ++axis) {
+        options.origin[axis] = place.origin[axis];
+        options.direction[axis] = place.direction[axis];
+    }
+    options.half_angle = place.half_angle;
+    options.count = RW_RAYS_UNKNOWN;
+    options.ray_kind = place.ray_kind;
+    options.structure = structure;
+    rw_commit_options commit = sized<rw_commit_options>();
+    commit.threads = threads;
+    rw_view* view = nullptr;
+    check(rw_view_create(scene.handle(), &options, &commit, &view), "rw_view_create");
+    view_.reset(view);
+
+    triangles_ = scene.triangles();
+    std::uint32_t count = 0;
+    check(rw_view_candidate_count(view, &count), "rw_view_candidate_count");
+    for (std::uint32_t i = 0; i < count; ++i) {
+        rw_candidate candidate = sized<rw_candidate>();
+        check(rw_view_get_candidate(view, i, &candidate), "rw_view_get_candidate");
+        if (std::strcmp(candidate.structure, structure) != 0) continue;
+        build_ns_ = candidate.actual_build_ns;
+        bytes_ = static_cast<double>(candidate.actual_bytes);
+    }
+}
+
+std::int32_t BuiltView::intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const {
+    return rw_view_intersect_batch(view_.get(), &rays, &hits, &options);
+}
+
+std::int32_t BuiltView::occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const {
+    return rw_view_occluded_batch(view_.get(), &rays, &output, &options);
+}
+
+} // namespace raywise::calibration

@@ -1,0 +1,23 @@
+/* One way to put a batch to a scene or to a view. */
+#ifndef DEMO_ASK_H
+#define DEMO_ASK_H
+
+#include "rays.h"
+
+struct target {
+    const struct api *api;
+    const rw_scene *scene; /* asked when there is no view */
+    const rw_view *view;
+    bool any_hit; /* whether something is hit, instead of what is hit first */
+    uint32_t threads;
+};
+
+/* Answers rays [first, first + count) of the list. Closest hits go to `hits`; any-hit answers, 1 or 0, to
+ * `occluded`. */
+bool ask_batch(const struct target *target, const struct ray_list *list, uint64_t first, uint64_t count,
+               const rw_hits *hits, uint8_t *occluded);
+
+/* Outputs that fill an array of rw_hit, every member. */
+rw_hits ask_whole_hits(rw_hit *hits);
+
+#endif

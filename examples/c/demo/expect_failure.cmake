@@ -1,0 +1,17 @@
+# cmake -Dtext=TEXT -P expect_failure.cmake -- PROGRAM ARGUMENTS...
+# Runs the program and expects exit code 2 and TEXT on stderr.
+set(command)
+set(started FALSE)
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(i RANGE ${last})
+  if(started)
+    list(APPEND command "${CMAKE_ARGV${i}}")
+  elseif(CMAKE_ARGV${i} STREQUAL "--")
+    set(started TRUE)
+  endif()
+endforeach()
+execute_process(COMMAND ${command} RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE errors)
+string(FIND "${errors}" "${text}" position)
+if(NOT code EQUAL 2 OR position EQUAL -1)
+  message(FATAL_ERROR "exit code ${code}, expected 2 and \"${text}\" in:\n${errors}")
+endif()
