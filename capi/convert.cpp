@@ -37,6 +37,25 @@ Strides read_strides(std::int64_t stride, std::int64_t component_stride, Scalar 
             component_stride == 0 ? size : static_cast<std::ptrdiff_t>(component_stride)};
 }
 
+// Whether two numbers of an array of `count` elements share a byte. Two of them are Elements * stride + Components *
+// component_stride bytes apart; for each difference of components only the nearest differences of elements can be too small.
+bool overlaps(const Strides& strides, std::size_t scalar_size, std::uint64_t count, int components) {
+    const auto size = static_cast<double>(scalar_size); // doubles hold strides of any sensible array exactly, and cannot overflow
+    const auto stride = static_cast<double>(strides.stride);
+    for (int difference = 0; difference < components; ++difference) {
+        const double apart = difference * static_cast<double>(strides.component_stride);
+        if (difference > 0 && std::fabs(apart) < size) return true;
+        if (count < 2) continue;
+        if (stride == 0.0) return true;
+        const double nearest = std::floor(-apart / stride);
+        for (const double elements : {nearest, nearest + 1.0, -1.0, 1.0}) {
+            if (elements == 0.0 || std::fabs(elements) > static_cast<double>(count - 1)) continue;
+            if (std::fabs(elements * stride + apart) < size) return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
@@ -62,10 +81,8 @@ OutputArray read_output(const rw_output& output, std::uint64_t count, int compon
                     : kind == OutputKind::ids   ? read_type(output.type, {RW_UINT32, RW_UINT64}, name)
                                                 : read_type(output.type, {RW_UINT8, RW_UINT32, RW_UINT64}, name);
     const Strides strides = read_strides(output.stride, output.component_stride, result.scalar, components);
-    const auto size = static_cast<std::ptrdiff_t>(size_of(result.scalar));
-    const bool elements_overlap = count > 1 && strides.stride < size && strides.stride > -size;
-    const bool components_overlap = components > 1 && strides.component_stride < size && strides.component_stride > -size;
-    if (elements_overlap || components_overlap) throw bad_argument(name + ": its strides let elements overlap");
+    if (output.stride == RW_REPEAT) throw bad_argument(name + ": RW_REPEAT would write every answer to one place");
+    if (overlaps(strides, size_of(result.scalar), count, components)) throw bad_argument(name + ": its strides let elements overlap");
     result.data = static_cast<std::byte*>(output.data);
     result.stride = strides.stride;
     result.component_stride = strides.component_stride;

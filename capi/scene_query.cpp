@@ -39,7 +39,10 @@ std::int32_t rw_scene_candidate_count(const rw_scene* scene, std::uint32_t* coun
 }
 
 std::int32_t rw_scene_get_candidate(const rw_scene* scene, std::uint32_t index, rw_candidate* candidate) {
-    return guard([&] { get_candidate(required(scene, "scene").value->plan(), scene->value->tracer(), index, candidate); });
+    return guard([&] {
+        const Scene& value = *required(scene, "scene").value;
+        get_candidate(value.plan(), value.tracer(), index, candidate);
+    });
 }
 
 std::int32_t rw_scene_explain(const rw_scene* scene, std::int32_t format, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {

@@ -93,7 +93,10 @@ std::int32_t rw_view_candidate_count(const rw_view* view, std::uint32_t* count) 
 }
 
 std::int32_t rw_view_get_candidate(const rw_view* view, std::uint32_t index, rw_candidate* candidate) {
-    return guard([&] { get_candidate(required(view, "view").value->plan(), view->value->tracer(), index, candidate); });
+    return guard([&] {
+        const View& value = *required(view, "view").value;
+        get_candidate(value.plan(), value.tracer(), index, candidate);
+    });
 }
 
 std::int32_t rw_view_explain(const rw_view* view, std::int32_t format, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {

@@ -13,8 +13,9 @@ struct Point {
     double cost; // above 0
 };
 
-// cost = fixed + per_unit * unit with no negative part, by least squares of the relative misfit: a tenth too much counts the same for
-// a scene of a hundred triangles and of a million. The residual is the root mean square of that misfit.
+// cost = fixed + per_unit * unit with no negative part, by least squares of the relative misfit: a tenth too much
+// counts the same for a scene of a hundred triangles and of a million. The residual is the root mean square of that
+// misfit.
 CostLine fit_line(const std::vector<Point>& points);
 
 // What was measured on one mesh with one structure.
@@ -41,12 +42,13 @@ bool suffices(const Measurements& measurements, std::size_t fewest);
 
 // All constants. `measurements` has to suffice for 2.
 //
-// hapala: eq. 7 and 8, means over the kd-tree's builds and random rays, of scenes of 500 triangles and more; the paper's
-// smallest has 528.
+// hapala: eq. 7 and 8, means over the kd-tree's builds and random rays, of scenes of 500 triangles and more; the
+// paper's smallest has 528.
 // primitive_test_ns: the slope of the linear scan's line for random rays.
-// node_step_ns: half the slope of the bvh's line for random rays. One more level of the tree means that a ray looks into both
-// children of one more node. It contains what a larger tree costs in cache misses and in paths taken in vain; the quotient of
-// both numbers steers builders, so it is kept between 1/20 and 2, the range that published tracers span in earnest.
+// node_step_ns: half the slope of the bvh's line for random rays. One more level of the tree means that a ray looks
+// into both children of one more node. It contains what a larger tree costs in cache misses and in paths taken in vain;
+// the quotient of both numbers steers builders, so it is kept between 1/20 and 2, the range that published tracers span
+// in earnest.
 MachineConstants fit(const Measurements& measurements);
 
 } // namespace raywise::calibration

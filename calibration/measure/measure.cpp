@@ -19,8 +19,8 @@ constexpr std::uint64_t seed = 20110131;
 const std::size_t camera = ray_kind_index(RayKind::camera);
 const std::size_t shadow = ray_kind_index(RayKind::shadow);
 
-// Builds so many times, and counts what the library says the building took. It tells wall time; what other programs took of that
-// is taken off in the proportion in which they took it from the whole call.
+// Builds so many times, and counts what the library says the building took. It tells wall time; what other programs
+// took of that is taken off in the proportion in which they took it from the whole call.
 template <class Build>
 Elapsed time_builds(std::uint64_t calls, Clock clock, Build build) {
     Elapsed elapsed{};

@@ -17,8 +17,8 @@ std::optional<ProcessorTime> processor_time();
 // From the text of /proc/stat.
 std::optional<ProcessorTime> parse_processor_time(const std::string& text);
 
-// The time of a fixed piece of arithmetic: it changes when the processor's clock does. The smallest of a few tries, because
-// interruptions are not what is looked for here.
+// The time of a fixed piece of arithmetic: it changes when the processor's clock does. The smallest of a few tries,
+// because interruptions are not what is looked for here.
 double reference_ns();
 
 struct Noise {

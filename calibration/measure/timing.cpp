@@ -26,8 +26,8 @@ struct State {
     void keep() { ns_per_call.push_back(latest.counted / static_cast<double>(calls)); }
 };
 
-// Finds how many calls take the minimum time; warms caches on the way. What takes that long already is kept as the first
-// repetition: it is too dear to be thrown away, and too long to be changed by cold caches.
+// Finds how many calls take the minimum time; warms caches on the way. What takes that long already is kept as the
+// first repetition: it is too dear to be thrown away, and too long to be changed by cold caches.
 void grow(const Timed& candidate, State& state, const TimingLimits& limits) {
     for (;;) {
         state.run(candidate);

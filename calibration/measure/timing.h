@@ -1,7 +1,8 @@
 // How durations are measured: the one place with the statistics.
 //
 // - A timing is repeated until it takes a minimum time, so that the clock's grain and the cost of a call to it vanish.
-// - Candidates take turns (round-robin), each repetition starting with another one: a disturbance that lasts hits all of them
+// - Candidates take turns (round-robin), each repetition starting with another one: a disturbance that lasts hits all
+// of them
 //   and leaves their ratios, which are what a choice needs.
 // - The estimate is the median. The smallest value has its friends, since disturbances only ever add; but it falls with
 //   the number of repetitions, and here cheap candidates are repeated often and dear ones seldom, so it would favour

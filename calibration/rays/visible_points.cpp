@@ -31,8 +31,8 @@ VisiblePoints visible_points(const RayRequest& request) {
     if (!request.closest) throw std::invalid_argument("rays that start on surfaces need a tracer");
     VisiblePoints points;
     if (request.count == 0) return points;
-    // A sparse image tells which part of it is covered, so that the real one is drawn about once; within reason, where hardly
-    // anything is in view.
+    // A sparse image tells which part of it is covered, so that the real one is drawn about once; within reason, where
+    // hardly anything is in view.
     const std::uint64_t trial = std::min<std::uint64_t>(request.count, 1024);
     const std::size_t covered = std::max<std::size_t>(seen_by(request, trial).position.size(), 1);
     const std::uint64_t most = request.count * most_pixels_per_ray;

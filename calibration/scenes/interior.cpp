@@ -1,4 +1,5 @@
-// A room: six walls of two triangles each, boxes on the floor, finely tessellated balls on the boxes and under the ceiling.
+// A room: six walls of two triangles each, boxes on the floor, finely tessellated balls on the boxes and under the
+// ceiling.
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 

@@ -1,5 +1,5 @@
-// Procedural scenes for calibration, tests and benchmarks. The same arguments give the same bits on every platform: own random
-// numbers, and only arithmetic that IEEE 754 rounds in one way.
+// Procedural scenes for calibration, tests and benchmarks. The same arguments give the same bits on every platform: own
+// random numbers, and only arithmetic that IEEE 754 rounds in one way.
 #pragma once
 
 #include "base/box.h"

@@ -5,8 +5,8 @@
 
 namespace raywise::workloads {
 
-// The point at `part` (0 ... 1) of a turn on the unit circle, by a polynomial: sine and cosine of the standard library differ
-// between platforms in the last bit.
+// The point at `part` (0 ... 1) of a turn on the unit circle, by a polynomial: sine and cosine of the standard library
+// differ between platforms in the last bit.
 Vec2 on_circle(double part);
 
 // Any two directions square to a unit vector and to each other.

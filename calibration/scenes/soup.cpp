@@ -1,4 +1,5 @@
-// Triangles without neighbours, order or surface. Their size follows their density, so that a ray meets as many gaps at any number.
+// Triangles without neighbours, order or surface. Their size follows their density, so that a ray meets as many gaps at
+// any number.
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 

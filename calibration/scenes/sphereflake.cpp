@@ -1,4 +1,5 @@
-// The "balls" of Haines's Standard Procedural Databases (1987), tessellated: each sphere carries nine of a third of its size.
+// The "balls" of Haines's Standard Procedural Databases (1987), tessellated: each sphere carries nine of a third of its
+// size.
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 

@@ -1,5 +1,5 @@
-// Long thin triangles in all directions: bounding boxes that are almost empty and overlap everywhere. Above 64,000 they get
-// shorter as they get more, so that a box overlaps dozens of others and not ever more of them.
+// Long thin triangles in all directions: bounding boxes that are almost empty and overlap everywhere. Above 64,000 they
+// get shorter as they get more, so that a box overlaps dozens of others and not ever more of them.
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
@@ -13,8 +13,8 @@ Mesh make_sticks(std::uint64_t triangles, std::uint64_t seed);
 Mesh make_sticks(std::uint64_t triangles, std::uint64_t seed) {
     triangles = std::max<std::uint64_t>(triangles, 1);
     Random random(seed);
-    // Of a cube of size 1; twice the mean distance of neighbours at most. Rounded to float32, because platforms differ in
-    // the last bit of cbrt.
+    // Of a cube of size 1; twice the mean distance of neighbours at most. Rounded to float32, because platforms differ
+    // in the last bit of cbrt.
     const double neighbour = static_cast<double>(static_cast<float>(std::cbrt(1.0 / static_cast<double>(triangles))));
     const double half_length = std::min(0.05, 2.0 * neighbour);
     const double width = half_length / 50.0;

@@ -27,13 +27,13 @@ constexpr std::uint32_t report_size = 65536; // primitives between two reports o
 constexpr int max_bin_count = 32;
 constexpr int bins_for(std::uint32_t primitives) { return primitives < 32 ? 8 : primitives < 512 ? 16 : max_bin_count; }
 
-// A primitive while the tree is built. The centroid (of the box) is doubled: the sum of two corners.
+// A primitive while the tree is built. Its centroid is its box's.
 struct BuildReference {
     float lower[3];
     float upper[3];
     std::uint32_t primitive;
 
-    double centroid2(int axis) const { return static_cast<double>(lower[axis]) + static_cast<double>(upper[axis]); }
+    float centroid(int axis) const { return 0.5f * lower[axis] + 0.5f * upper[axis]; } // does not overflow
 };
 
 // Without initial values: arrays of bounds are made for every small node.
@@ -62,53 +62,47 @@ struct Bounds {
     }
 };
 
-// Of doubled centroids.
-struct CentroidBounds {
-    double lower[3] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                       std::numeric_limits<double>::infinity()};
-    double upper[3] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                       -std::numeric_limits<double>::infinity()};
+// Of centroids.
+struct CentroidBounds : Bounds {
+    CentroidBounds() : Bounds(none()) {}
 
+    using Bounds::extend;
     void extend(const BuildReference& reference) {
         for (int axis = 0; axis < 3; ++axis) {
-            const double c = reference.centroid2(axis);
+            const float c = reference.centroid(axis);
             lower[axis] = c < lower[axis] ? c : lower[axis];
             upper[axis] = c > upper[axis] ? c : upper[axis];
         }
     }
-    void extend(const CentroidBounds& other) {
-        for (int axis = 0; axis < 3; ++axis) {
-            lower[axis] = std::min(lower[axis], other.lower[axis]);
-            upper[axis] = std::max(upper[axis], other.upper[axis]);
-        }
-    }
-    double extent(int axis) const { return upper[axis] - lower[axis]; }
+    float extent(int axis) const { return upper[axis] - lower[axis]; }
     int longest_axis() const {
         const int xy = extent(0) >= extent(1) ? 0 : 1;
         return extent(xy) >= extent(2) ? xy : 2;
     }
 };
 
-// From a doubled centroid to its bin on each axis; monotone. An axis on which all centroids agree has the one bin 0.
+// From a centroid to its bin on each axis; monotone. An axis on which the centroids agree, or are so close or so far apart that
+// float32 cannot divide the axis, has the one bin 0.
 class Binning {
 public:
     Binning(const CentroidBounds& centroids, int count) : count_(count) {
         for (int axis = 0; axis < 3; ++axis) {
-            const double extent = centroids.extent(axis);
-            lower_[axis] = centroids.lower[axis];
-            scale_[axis] = extent > 0.0 ? count / extent : 0.0;
+            const float extent = centroids.extent(axis);
+            const bool divides = extent > 1e-36f && extent <= std::numeric_limits<float>::max();
+            lower_[axis] = divides ? centroids.lower[axis] : 0.0f; // no infinite difference
+            scale_[axis] = divides ? static_cast<float>(count) / extent : 0.0f;
         }
     }
     int bin(const BuildReference& reference, int axis) const {
-        const int bin = static_cast<int>((reference.centroid2(axis) - lower_[axis]) * scale_[axis]);
+        const int bin = static_cast<int>((reference.centroid(axis) - lower_[axis]) * scale_[axis]);
         return bin < count_ ? bin : count_ - 1;
     }
     int count() const { return count_; }
 
 private:
     int count_;
-    double lower_[3];
-    double scale_[3];
+    float lower_[3];
+    float scale_[3];
 };
 
 struct Bin {
@@ -432,7 +426,7 @@ private:
         const std::uint32_t n = range.count();
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(centroids.extent(axis) > 0.0)) continue;
+            if (!(centroids.extent(axis) > 0.0f)) continue;
             const Order order(references, n, axis);
             std::array<Bounds, sweep_size> right;
             Bounds bounds = Bounds::none();
@@ -465,7 +459,7 @@ private:
     public:
         Order(const BuildReference* references, std::uint32_t n, int axis) {
             for (std::uint32_t i = 0; i < n; ++i) {
-                const Key key{references[i].centroid2(axis), references[i].primitive, i};
+                const Key key{references[i].centroid(axis), references[i].primitive, i};
                 std::uint32_t place = i;
                 for (; place > 0 && key < keys_[place - 1]; --place) keys_[place] = keys_[place - 1];
                 keys_[place] = key;
@@ -475,20 +469,20 @@ private:
 
     private:
         struct Key {
-            double centroid2;
+            float centroid;
             std::uint32_t primitive;
             std::uint32_t index;
 
             bool operator<(const Key& other) const {
-                return centroid2 < other.centroid2 || (centroid2 == other.centroid2 && primitive < other.primitive);
+                return centroid < other.centroid || (centroid == other.centroid && primitive < other.primitive);
             }
         };
         std::array<Key, sweep_size> keys_;
     };
 
     static bool before(const BuildReference& a, const BuildReference& b, int axis) {
-        const double ca = a.centroid2(axis);
-        const double cb = b.centroid2(axis);
+        const float ca = a.centroid(axis);
+        const float cb = b.centroid(axis);
         return ca < cb || (ca == cb && a.primitive < b.primitive);
     }
 

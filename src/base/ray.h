@@ -31,8 +31,13 @@ struct Ray {
 // `margin` is the slack every culling test must leave, in scaled t. A hit's t is accurate to margin / 8 (see
 // geometry/triangle_test.h) and the slab distances of boxes the ray meets within the scene are too, so a test that errs
 // by `margin` towards visiting can never lose a hit that another structure finds.
+//
+// Components of the direction below 2^-500 of the largest count as zero: their products with coordinates would leave the range
+// of float64, and with them exactness; 1 / direction stays finite or is infinite for a true zero.
 class PreparedRay {
 public:
+    static constexpr double smallest_direction = 0x1p-500;
+
     // bounds: of the whole scene. The ray has to be valid (see is_traceable).
     PreparedRay(const Ray& ray, const Box& bounds) : origin(ray.origin) {
         const Vec3 magnitude = glm::abs(ray.direction);
@@ -40,6 +45,7 @@ public:
         scale_exponent_ = std::ilogb(magnitude[major_axis]);
         for (int axis = 0; axis < 3; ++axis) {
             direction[axis] = std::ldexp(ray.direction[axis], -scale_exponent_);
+            if (std::fabs(direction[axis]) < smallest_direction) direction[axis] = std::copysign(0.0, direction[axis]);
             inverse[axis] = 1.0 / direction[axis];
         }
         x_axis = major_axis == 2 ? 0 : major_axis + 1;
@@ -47,7 +53,8 @@ public:
         shear_x = direction[x_axis] * inverse[major_axis];
         shear_y = direction[y_axis] * inverse[major_axis];
         tmin = from_caller(ray.tmin);
-        tmax = from_caller(ray.tmax);
+        // A hit so far away that its t overflows in the caller's unit cannot be reported.
+        tmax = std::min(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
         const Vec3 reach = glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin));
         margin = std::ldexp(std::max(max_component(reach), std::numeric_limits<double>::min()), -34);
     }

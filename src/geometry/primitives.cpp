@@ -2,32 +2,45 @@
 
 #include "base/error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace raywise {
 namespace {
 
-// (b - a) x (c - a), scaled by powers of two; zero exactly when the corners lie in one line. Where the plain cross product
-// would be mostly rounding each component is computed exactly: it is the determinant of an axis with the two edges.
+// (b - a) x (c - a) times a power of two; zero exactly when the corners lie in one line. Where the plain cross product would be
+// mostly rounding each component is computed exactly: it is the determinant of an axis with the two edges.
 Vec3 scaled_normal(const Corners& c) {
     Vec3 e = c[1] - c[0];
     Vec3 f = c[2] - c[0];
-    const double largest = std::max(max_component(glm::abs(e)), max_component(glm::abs(f)));
-    if (largest == 0.0) return Vec3(0.0);
-    const int scale_exponent = std::ilogb(largest);
+    const Vec3 largest = glm::max(glm::abs(e), glm::abs(f));
+    if (max_component(largest) == 0.0) return Vec3(0.0);
+    const int common = std::ilogb(max_component(largest));
     for (int axis = 0; axis < 3; ++axis) {
-        e[axis] = std::ldexp(e[axis], -scale_exponent);
-        f[axis] = std::ldexp(f[axis], -scale_exponent);
+        e[axis] = std::ldexp(e[axis], -common);
+        f[axis] = std::ldexp(f[axis], -common);
     }
     Vec3 n = glm::cross(e, f);
     if (max_component(glm::abs(n)) > 0x1p-30) return n; // its rounding is below 2^-50
-    const AxisScale scale{{scale_exponent, scale_exponent, scale_exponent}};
+
+    // Each axis is scaled by itself, so that a triangle may be huge along one and tiny along another. A component of the normal
+    // is made of the other two axes; the scales are taken back relative to the largest component.
+    const AxisScale scale = AxisScale::of(largest);
+    int exponents[3];
+    int highest = std::numeric_limits<int>::min();
     for (int axis = 0; axis < 3; ++axis) {
         Vec3 unit(0.0);
         unit[axis] = 1.0;
         n[axis] = exact_determinant(unit, c[0], c[1], c[2], scale);
+        if (n[axis] == 0.0) continue;
+        exponents[axis] = scale.exponents[(axis + 1) % 3] + scale.exponents[(axis + 2) % 3];
+        highest = std::max(highest, std::ilogb(n[axis]) + exponents[axis]);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (n[axis] != 0.0) n[axis] = std::ldexp(n[axis], exponents[axis] - highest);
     }
     return n;
 }

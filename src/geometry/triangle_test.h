@@ -22,8 +22,8 @@
 
 namespace raywise {
 
-// What the test computes. u and v are the weights of the second and third corner. The point they name lies off the exact one by
-// less than 2^-44 of the distance from the ray's origin to the farthest corner, and so does the point at t.
+// What the test computes. u and v are the weights of the second and third corner, and lie within 2^-30 of the exact ones; for
+// triangles that are not tiny against their distance they are good to nearly all bits.
 struct TriangleHit {
     double t; // scaled, as PreparedRay counts it
     double u;
@@ -85,10 +85,12 @@ inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, 
     const double z_low = std::min(std::min(sa.z, sb.z), sc.z);
     const double z_high = std::max(std::max(sa.z, sb.z), sc.z);
     const bool signs_certain = std::min(std::min(std::fabs(wa), std::fabs(wb)), std::fabs(wc)) > error;
-    // t is a mean of the corners' z by these weights. Its error is the weights' relative error times the triangle's
-    // extent in z, and has to stay below the margin that traversal leaves.
-    const bool t_certain = 3.0 * error * (z_high - z_low) * 0x1p40 <= std::fabs(wa + wb + wc) * largest;
-    if (!in_range || !signs_certain || !t_certain) {
+    // The weights' relative error is that of u and v, which are to be good to 2^-30. t is a mean of the corners' z by these
+    // weights: its error is theirs times the triangle's extent in z, and has to stay below the margin that traversal leaves.
+    const double weight_error = 3.0 * error;
+    const double area = std::fabs(wa + wb + wc);
+    const bool weights_certain = weight_error * 0x1p30 <= area && weight_error * (z_high - z_low) * 0x1p40 <= area * largest;
+    if (!in_range || !signs_certain || !weights_certain) {
         const AxisScale scale = AxisScale::of(glm::max(glm::abs(pa), glm::max(glm::abs(pb), glm::abs(pc))));
         wa = exact_determinant(ray.direction, ray.origin, b, c, scale);
         wb = exact_determinant(ray.direction, ray.origin, c, a, scale);
@@ -101,7 +103,7 @@ inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, 
     const double u = wb / sum;
     const double v = wc / sum;
     const double z = sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z));
-    hit.t = std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis);
+    hit.t = std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis) + 0.0; // + 0.0: never a negative zero
     hit.u = u;
     hit.v = v;
     return true;

@@ -1,5 +1,5 @@
-// Every number that decides something, as calibration measures it. All times in nanoseconds on one thread: processor time, which on a
-// quiet machine is wall time.
+// Every number that decides something, as calibration measures it. All times in nanoseconds on one thread: processor
+// time, which on a quiet machine is wall time.
 #pragma once
 
 #include "base/structure.h"

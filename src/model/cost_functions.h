@@ -1,4 +1,5 @@
-// What a structure will cost: build, ray and bytes as functions of the scene. One line per structure in cost_functions.cpp.
+// What a structure will cost: build, ray and bytes as functions of the scene. One line per structure in
+// cost_functions.cpp.
 #pragma once
 
 #include "model/constants.h"
@@ -15,8 +16,8 @@ struct Cost {
     double total_ns(double rays) const { return build_ns + rays * ray_ns; }
 };
 
-// The quantity a structure's build and ray time grow with: N, N log2 N, log2 N, N^(1/3) ... of N >= 0 triangles. Calibration fits
-// its lines over the same functions.
+// The quantity a structure's build and ray time grow with: N, N log2 N, log2 N, N^(1/3) ... of N >= 0 triangles.
+// Calibration fits its lines over the same functions.
 double build_unit(Structure structure, double triangles);
 double ray_unit(Structure structure, double triangles);
 const char* build_unit_name(Structure structure);

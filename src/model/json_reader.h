@@ -1,9 +1,8 @@
-// Distrustful reading of JSON: bounded in size and depth, and every complaint names the member and what it holds.
+// Distrustful reading of JSON values: every complaint names the member and what it holds.
 #pragma once
 
 #include "base/error.h"
-
-#include <nlohmann/json.hpp>
+#include "model/json_tree.h"
 
 #include <cstdint>
 #include <string>
@@ -12,14 +11,11 @@
 
 namespace raywise {
 
-// Parses a whole text. Throws Error(PROFILE_MALFORMED, PROFILE_RANGE for a number that float64 cannot hold).
-nlohmann::json parse_bounded(const std::string& text);
-
 // A value inside a parsed text, and the way to it for messages: "structures.bvh.build_ns.fixed".
 // Wrong types and missing or unexpected members throw Error(PROFILE_MALFORMED), bad numbers Error(PROFILE_RANGE).
 class JsonValue {
 public:
-    JsonValue(const nlohmann::json& value, std::string name) : value_(value), name_(std::move(name)) {}
+    JsonValue(const JsonNode& value, std::string name) : value_(value), name_(std::move(name)) {}
 
     // A member of an object.
     JsonValue operator[](const char* member) const;
@@ -37,7 +33,7 @@ public:
     [[noreturn]] void refuse(Status status, const std::string& problem) const;
 
 private:
-    const nlohmann::json& value_;
+    const JsonNode& value_;
     std::string name_;
 };
 

@@ -1,7 +1,7 @@
 // A calibration profile: the constants with the machine, tool and date they were measured on, and its file.
 //
-// Files are distrusted: at most 1 MiB, every member checked for type and range, all or nothing. Anything wrong means another
-// file or the generic constants, and a status that says why.
+// Files are distrusted: at most 1 MiB, every member checked for type and range, all or nothing. Anything wrong means
+// another file or the generic constants, and a status that says why.
 #pragma once
 
 #include "base/error.h"
@@ -64,14 +64,14 @@ struct ProfilePlaces {
     std::filesystem::path system;
 };
 
-// First valid wins: RAYWISE_CALIBRATION, the user's cache folder, the system's folder, the generic constants. status and reason
-// tell of the first file that was there (or named by RAYWISE_CALIBRATION) and could not be used.
+// First valid wins: RAYWISE_CALIBRATION, the user's cache folder, the system's folder, the generic constants. status
+// and reason tell of the first file that was there (or named by RAYWISE_CALIBRATION) and could not be used.
 // Never throws but std::bad_alloc.
 Profile find_profile();
 Profile find_profile(const ProfilePlaces& places);
 
-// The profile as JSON text, and back: what is read and written again is the same text. parse throws Error with a PROFILE_
-// status; it checks everything but the machine.
+// The profile as JSON text, and back: what is read and written again is the same text. parse throws Error with a
+// PROFILE_ status; it checks everything but the machine.
 std::string to_json(const Profile& profile);
 Profile parse_profile(const std::string& text);
 
@@ -81,8 +81,8 @@ std::string to_text(const Profile& profile);
 // OK, or PROFILE_MACHINE with the difference in `reason`.
 Status check_machine(const Profile& profile, const Machine& here, std::string& reason);
 
-// Where find_profile() looks, and where calibration writes. The user's is empty when neither XDG_CACHE_HOME nor HOME is an
-// absolute path.
+// Where find_profile() looks, and where calibration writes. The user's is empty when neither XDG_CACHE_HOME nor HOME is
+// an absolute path.
 std::filesystem::path user_profile_path(const Machine& machine);
 std::filesystem::path system_profile_path(const Machine& machine);
 

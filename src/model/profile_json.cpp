@@ -1,6 +1,7 @@
 // The profile's file format, "raywise-profile/1": JSON, every member required, none besides.
 #include "model/cost_functions.h"
 #include "model/json_reader.h"
+#include "model/json_writer.h"
 #include "model/profile.h"
 
 #include <cmath>
@@ -8,8 +9,6 @@
 
 namespace raywise {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr const char* schema = "raywise-profile/1";
 
@@ -25,8 +24,13 @@ constexpr double most_seconds = 1e7;   // spent on measuring: four months
 constexpr std::uint64_t most_cache_bytes = std::uint64_t{1} << 40;
 constexpr std::uint64_t most_threads = 1u << 20;
 
-ordered_json line_json(const CostLine& line, const char* unit) {
-    return {{"fixed", line.fixed}, {"per_unit", line.per_unit}, {"unit", unit}, {"residual", line.residual}};
+void write_line(JsonWriter& json, const char* name, const CostLine& line, const char* unit) {
+    json.open_object(name);
+    json.put("fixed", line.fixed);
+    json.put("per_unit", line.per_unit);
+    json.put("unit", unit);
+    json.put("residual", line.residual);
+    json.close_object();
 }
 
 struct LineLimits {
@@ -109,52 +113,62 @@ std::string to_json(const Profile& profile) {
     const Provenance& provenance = profile.provenance;
     const MachineConstants& constants = profile.constants;
 
-    ordered_json structures = ordered_json::object();
+    JsonWriter json;
+    json.open_object();
+    json.put("schema", schema);
+    json.put("epoch", profile.epoch);
+
+    json.open_object("machine");
+    json.put("vendor", machine.vendor);
+    json.put("brand", machine.brand);
+    json.put("family", machine.family);
+    json.put("model", machine.model);
+    json.put("stepping", machine.stepping);
+    json.put("instruction_set", machine.instruction_set);
+    json.put("l1_bytes", machine.l1_bytes);
+    json.put("l2_bytes", machine.l2_bytes);
+    json.put("l3_bytes", machine.l3_bytes);
+    json.put("threads", machine.threads);
+    json.put("precision", machine.precision);
+    json.put("virtualised", machine.virtualised);
+    json.close_object();
+
+    json.open_object("provenance");
+    json.put("tool", provenance.tool);
+    json.put("command", provenance.command);
+    json.put("date", provenance.date);
+    json.put("mode", provenance.mode);
+    json.put("spread", provenance.spread);
+    json.put("seconds", provenance.seconds);
+    json.close_object();
+
+    json.open_object("structures");
     for (const Structure structure : all_structures()) {
         const StructureConstants& lines = constants.structures[structure];
-        ordered_json rays = ordered_json::object();
+        json.open_object(name_of(structure));
+        write_line(json, "build_ns", lines.build_ns, build_unit_name(structure));
+        json.open_object("ray_ns");
         for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
-            rays[measured_ray_kind_names[kind]] = line_json(lines.ray_ns[kind], ray_unit_name(structure));
+            write_line(json, measured_ray_kind_names[kind], lines.ray_ns[kind], ray_unit_name(structure));
         }
-        structures[name_of(structure)] = {{"build_ns", line_json(lines.build_ns, build_unit_name(structure))},
-                                          {"ray_ns", std::move(rays)},
-                                          {"bytes", line_json(lines.bytes, "N")}};
+        json.close_object();
+        write_line(json, "bytes", lines.bytes, "N");
+        json.close_object();
     }
-    const ordered_json document = {
-        {"schema", schema},
-        {"epoch", profile.epoch},
-        {"machine",
-         {{"vendor", machine.vendor},
-          {"brand", machine.brand},
-          {"family", machine.family},
-          {"model", machine.model},
-          {"stepping", machine.stepping},
-          {"instruction_set", machine.instruction_set},
-          {"l1_bytes", machine.l1_bytes},
-          {"l2_bytes", machine.l2_bytes},
-          {"l3_bytes", machine.l3_bytes},
-          {"threads", machine.threads},
-          {"precision", machine.precision},
-          {"virtualised", machine.virtualised}}},
-        {"provenance",
-         {{"tool", provenance.tool},
-          {"command", provenance.command},
-          {"date", provenance.date},
-          {"mode", provenance.mode},
-          {"spread", provenance.spread},
-          {"seconds", provenance.seconds}}},
-        {"structures", std::move(structures)},
-        {"hapala",
-         {{"build_ns_per_n_log_n", constants.hapala.build_ns_per_n_log_n},
-          {"ray_ns_per_log_n", constants.hapala.ray_ns_per_log_n}}},
-        {"primitive_test_ns", constants.primitive_test_ns},
-        {"node_step_ns", constants.node_step_ns},
-    };
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    json.close_object();
+
+    json.open_object("hapala");
+    json.put("build_ns_per_n_log_n", constants.hapala.build_ns_per_n_log_n);
+    json.put("ray_ns_per_log_n", constants.hapala.ray_ns_per_log_n);
+    json.close_object();
+    json.put("primitive_test_ns", constants.primitive_test_ns);
+    json.put("node_step_ns", constants.node_step_ns);
+    json.close_object();
+    return json.finish();
 }
 
 Profile parse_profile(const std::string& text) {
-    const nlohmann::json document = parse_bounded(text);
+    const JsonNode document = parse_json(text);
     const JsonValue root(document, "");
 
     // First what tells whether the rest means anything.

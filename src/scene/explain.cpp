@@ -1,6 +1,6 @@
 #include "scene/explain.h"
 
-#include <nlohmann/json.hpp>
+#include "model/json_writer.h"
 
 #include <cmath>
 #include <cstdio>
@@ -53,11 +53,6 @@ std::string remark(const CandidateReport& candidate) {
     if (candidate.break_even_rays <= 1.0) return "better at once";
     if (candidate.break_even_rays >= 1e15) return format("better above %.1e rays", candidate.break_even_rays);
     return "better above " + grouped(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
-}
-
-nlohmann::ordered_json number(double value) {
-    if (!std::isfinite(value)) return nullptr; // JSON has neither NaN nor infinity
-    return value;
 }
 
 } // namespace
@@ -116,50 +111,69 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
 }
 
 std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& profile) {
-    using Json = nlohmann::ordered_json;
-    Json json;
-    json["triangles"] = tracer.primitives().count();
-    json["hittable_triangles"] = tracer.primitives().hittable_count();
-    json["expected_rays"] = plan.workload.rays ? Json(*plan.workload.rays) : Json(nullptr);
-    json["ray_kind"] = kind_names[static_cast<int>(plan.workload.kind)];
-    json["effort"] = effort_names[static_cast<int>(plan.effort)];
-    json["rule"] = rule_names[static_cast<int>(plan.rule)];
-    json["calibration"] = {{"source", source_names[static_cast<int>(profile.source)]},
-                           {"path", profile.path},
-                           {"date", profile.provenance.date},
-                           {"status", static_cast<int>(profile.status)},
-                           {"reason", profile.reason}};
-    if (plan.hapala) {
-        json["hapala"] = {{"tree_build_ns", number(plan.hapala->tree_build_ns)},
-                          {"tree_ray_ns", number(plan.hapala->tree_ray_ns)},
-                          {"critical_rays", number(plan.hapala->critical_rays)},
-                          {"keep_grid", plan.hapala->keep_grid}};
+    JsonWriter json;
+    json.open_object();
+    json.put("triangles", tracer.primitives().count());
+    json.put("hittable_triangles", tracer.primitives().hittable_count());
+    if (plan.workload.rays) {
+        json.put("expected_rays", *plan.workload.rays);
+    } else {
+        json.put_null("expected_rays");
     }
-    json["chosen"] = name_of(plan.chosen);
-    json["forced"] = plan.forced;
-    json["decide_ns"] = number(plan.decide_ns);
-    json["candidates"] = Json::array();
+    json.put("ray_kind", kind_names[static_cast<int>(plan.workload.kind)]);
+    json.put("effort", effort_names[static_cast<int>(plan.effort)]);
+    json.put("rule", rule_names[static_cast<int>(plan.rule)]);
+
+    json.open_object("calibration");
+    json.put("source", source_names[static_cast<int>(profile.source)]);
+    json.put("path", profile.path);
+    json.put("date", profile.provenance.date);
+    json.put("status", static_cast<int>(profile.status));
+    json.put("reason", profile.reason);
+    json.close_object();
+
+    if (plan.hapala) {
+        json.open_object("hapala");
+        json.put("tree_build_ns", plan.hapala->tree_build_ns);
+        json.put("tree_ray_ns", plan.hapala->tree_ray_ns);
+        json.put("critical_rays", plan.hapala->critical_rays);
+        json.put("keep_grid", plan.hapala->keep_grid);
+        json.close_object();
+    }
+    json.put("chosen", name_of(plan.chosen));
+    json.put("forced", plan.forced);
+    json.put("decide_ns", plan.decide_ns);
+
+    json.open_list("candidates");
     for (const Structure structure : all_structures()) {
         const CandidateReport candidate = report_candidate(plan, tracer, structure);
         const PlannedCandidate& figures = candidate.figures;
-        json["candidates"].push_back({{"structure", name_of(structure)},
-                                      {"chosen", candidate.chosen},
-                                      {"applicable", figures.applicable},
-                                      {"over_limit", figures.over_limit},
-                                      {"measured", figures.measured},
-                                      {"predicted_build_ns", number(figures.predicted.build_ns)},
-                                      {"predicted_ray_ns", number(figures.predicted.ray_ns)},
-                                      {"predicted_error", number(figures.predicted.error)},
-                                      {"predicted_bytes", number(figures.predicted.bytes)},
-                                      {"predicted_total_ns", number(candidate.predicted_total_ns)},
-                                      {"break_even_rays", number(candidate.break_even_rays)},
-                                      {"actual_build_ns", number(figures.actual_build_ns)},
-                                      {"actual_ray_ns", number(figures.actual_ray_ns)},
-                                      {"actual_bytes", figures.actual_bytes != 0 ? Json(figures.actual_bytes) : Json(nullptr)}});
+        json.open_object();
+        json.put("structure", name_of(structure));
+        json.put("chosen", candidate.chosen);
+        json.put("applicable", figures.applicable);
+        json.put("over_limit", figures.over_limit);
+        json.put("measured", figures.measured);
+        json.put("predicted_build_ns", figures.predicted.build_ns);
+        json.put("predicted_ray_ns", figures.predicted.ray_ns);
+        json.put("predicted_error", figures.predicted.error);
+        json.put("predicted_bytes", figures.predicted.bytes);
+        json.put("predicted_total_ns", candidate.predicted_total_ns);
+        json.put("break_even_rays", candidate.break_even_rays);
+        json.put("actual_build_ns", figures.actual_build_ns);
+        json.put("actual_ray_ns", figures.actual_ray_ns);
+        if (figures.actual_bytes != 0) {
+            json.put("actual_bytes", figures.actual_bytes);
+        } else {
+            json.put_null("actual_bytes");
+        }
+        json.close_object();
     }
-    json["rays"] = tracer.usage().rays.load(std::memory_order_relaxed);
-    json["invalid_rays"] = tracer.usage().invalid_rays.load(std::memory_order_relaxed);
-    return json.dump(2) + "\n";
+    json.close_list();
+    json.put("rays", tracer.usage().rays.load(std::memory_order_relaxed));
+    json.put("invalid_rays", tracer.usage().invalid_rays.load(std::memory_order_relaxed));
+    json.close_object();
+    return json.finish();
 }
 
 } // namespace raywise

@@ -183,6 +183,7 @@ TEST(Bvh, DepthIsBounded) {
     const Bvh bvh(scene.input());
     const Shape shape = shape_of(bvh.tree());
     EXPECT_LE(shape.depth, bvh_max_depth);
+    EXPECT_GT(shape.depth, bvh_max_depth / 2) << "the scene should have strained the bound";
     EXPECT_EQ(shape.references, triangles.size());
     Random random(15);
     for (int i = 0; i < 40; ++i) expect_same(scene, bvh, any_ray(triangles, scene.bounds(), random));

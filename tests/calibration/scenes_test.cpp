@@ -85,7 +85,8 @@ TEST_P(EachScene, DependsOnNothingButNumberAndSeed) {
     EXPECT_NE(hash_of(GetParam().make(4000, 7)), hash);
 }
 
-// The bits on every platform. They change when a scene is changed, which makes old profiles and benchmarks another matter.
+// The bits on every platform. They change when a scene is changed, which makes old profiles and benchmarks another
+// matter.
 TEST_P(EachScene, IsTheSameEverywhere) {
     const std::map<std::string, std::uint64_t> known = {
         {"tiny_box", 0x3A1E58A2BF8B052Eu}, {"sphereflake", 0xDD6D2C0F5699230Eu},  {"terrain", 0x8ADC729FBC49ED71u},

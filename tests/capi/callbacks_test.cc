@@ -170,7 +170,7 @@ void parallel_builds(const soup& s, const rw_scene* expected) {
 }
 
 void parallel_batches(const rw_scene* scene) {
-    const uint64_t count = 5000;
+    const uint64_t count = 2000;
     std::vector<double> origins, directions;
     for (uint64_t i = 0; i < count; ++i) {
         const rw_ray ray = random_ray();
@@ -221,7 +221,7 @@ void parallel_batches(const rw_scene* scene) {
 
 int main() {
     use_all_helpers();
-    soup s = make_soup(5000);
+    soup s = make_soup(2000);
     rw_scene* expected = make_scene(&s, "linear_scan");
     cancelling(s, expected);
     throwing(s, expected);

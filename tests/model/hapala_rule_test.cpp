@@ -61,8 +61,8 @@ TEST(HapalaRule, CalibratedOnASceneReturnsItsMeasurements) {
     }
 }
 
-// The printed times have two or three digits, so most rows can be met only within a few per cent; teapot, whose grid took
-// almost half as long to build as its tree, is furthest off.
+// The printed times have two or three digits, so most rows can be met only within a few per cent; teapot, whose grid
+// took almost half as long to build as its tree, is furthest off.
 TEST(HapalaRule, ReproducesTheCriticalNumbersOfTable1) {
     double sum = 0.0;
     for (const Row& row : rows) {

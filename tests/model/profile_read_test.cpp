@@ -1,4 +1,5 @@
-// Files that are no profile, and profiles that are not for here: each gives the generic constants and a status of its own.
+// Files that are no profile, and profiles that are not for here: each gives the generic constants and a status of its
+// own.
 #include "model/profile.h"
 #include "profile_fixture.h"
 #include "temporary_folder.h"

@@ -19,7 +19,11 @@
  *   take a const handle may run at the same time in any number of threads; others need the handle alone.
  * - Rays. t is measured in units of the direction's length. A hit counts when tmin <= t <= tmax. A ray
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
- * - Answers. Hit or miss is decided by exact arithmetic on the coordinates given. Where several
+ *   Components of a direction below 2^-500 of its largest count as zero.
+ * - Answers. Whether a ray's line meets a triangle is decided by exact arithmetic on the coordinates given; edges and corners
+ *   belong to the triangle. t is accurate to 2^-37 of the distance between the ray's origin and the farthest point of the
+ *   scene, u and v to 2^-30, nearly always to all but the last bits; a hit that close to tmin or tmax counts as its rounded t
+ *   says, alike everywhere. Where several
  *   triangles are hit at the same t the lowest (instance, geometry, primitive) wins. The bits of an answer do not
  *   depend on the structure, the call, the order or the number of threads.
  */

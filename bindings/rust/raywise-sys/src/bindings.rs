@@ -731,7 +731,7 @@ pub struct rw_expected_rays {
     pub struct_size: u32,
     /// RW_RAYS_ kind
     pub kind: i32,
-    /// 1 ... RW_RAYS_LIMIT, or RW_RAYS_UNKNOWN
+    /// 1 ... RW_RAYS_LIMIT, or RW_RAYS_UNKNOWN; 0 is an error, so that a forgotten count shows
     pub count: u64,
     /**
 ```text
@@ -788,7 +788,7 @@ impl Default for rw_expected_rays {
 /**
 ```text
 A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It may be called from
-any of the threads at work, never from two at once.
+any of the threads at work, never from two at once; at least once per commit and per view.
 ```
 */
 pub type rw_progress = ::std::option::Option<
@@ -1230,7 +1230,7 @@ RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, 
 ```
 */
     pub half_angle: f64,
-    /// expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN
+    /// expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error
     pub count: u64,
     /// RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera
     pub ray_kind: i32,
@@ -1695,7 +1695,8 @@ Threads: any. Since: 0.1.
     /**
 ```text
 Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
-rays: struct_size set; not NULL. hits: struct_size set; not NULL; outputs may not overlap the rays.
+rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
+the rays, which is not checked.
 options: struct_size set; NULL: the defaults.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
 RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
