@@ -18,11 +18,16 @@ Scalar read_type(std::int32_t type, const std::vector<std::int32_t>& allowed, co
         throw bad_argument(name + ": type " + std::to_string(type) + " has no meaning here");
     }
     switch (actual) {
-    case RW_FLOAT32: return Scalar::float32;
-    case RW_FLOAT64: return Scalar::float64;
-    case RW_UINT8: return Scalar::uint8;
-    case RW_UINT32: return Scalar::uint32;
-    default: return Scalar::uint64;
+        case RW_FLOAT32:
+            return Scalar::float32;
+        case RW_FLOAT64:
+            return Scalar::float64;
+        case RW_UINT8:
+            return Scalar::uint8;
+        case RW_UINT32:
+            return Scalar::uint32;
+        default:
+            return Scalar::uint64;
     }
 }
 
@@ -33,14 +38,17 @@ struct Strides {
 
 Strides read_strides(std::int64_t stride, std::int64_t component_stride, Scalar scalar, int components) {
     const auto size = static_cast<std::ptrdiff_t>(size_of(scalar));
-    return {stride == RW_REPEAT ? 0 : stride == 0 ? components * size : static_cast<std::ptrdiff_t>(stride),
+    return {stride == RW_REPEAT ? 0
+            : stride == 0       ? components * size
+                                : static_cast<std::ptrdiff_t>(stride),
             component_stride == 0 ? size : static_cast<std::ptrdiff_t>(component_stride)};
 }
 
 // Whether two numbers of an array of `count` elements share a byte. Two of them are Elements * stride + Components *
 // component_stride bytes apart; for each difference of components only the nearest differences of elements can be too small.
 bool overlaps(const Strides& strides, std::size_t scalar_size, std::uint64_t count, int components) {
-    const auto size = static_cast<double>(scalar_size); // doubles hold strides of any sensible array exactly, and cannot overflow
+    const auto size =
+        static_cast<double>(scalar_size); // doubles hold strides of any sensible array exactly, and cannot overflow
     const auto stride = static_cast<double>(strides.stride);
     for (int difference = 0; difference < components; ++difference) {
         const double apart = difference * static_cast<double>(strides.component_stride);
@@ -61,7 +69,8 @@ bool overlaps(const Strides& strides, std::size_t scalar_size, std::uint64_t cou
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
                         const std::string& name) {
     if (array.data == nullptr) {
-        if (required && count > 0) throw bad_argument(name + ": data is NULL for " + std::to_string(count) + " elements");
+        if (required && count > 0)
+            throw bad_argument(name + ": data is NULL for " + std::to_string(count) + " elements");
         return {};
     }
     StridedArray result;
@@ -74,7 +83,8 @@ StridedArray read_array(const rw_array& array, std::uint64_t count, int componen
     return result;
 }
 
-OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind, const std::string& name) {
+OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
+                        const std::string& name) {
     if (output.data == nullptr) return {};
     OutputArray result;
     result.scalar = kind == OutputKind::numbers ? read_type(output.type, {RW_FLOAT32, RW_FLOAT64}, name)
@@ -82,7 +92,8 @@ OutputArray read_output(const rw_output& output, std::uint64_t count, int compon
                                                 : read_type(output.type, {RW_UINT8, RW_UINT32, RW_UINT64}, name);
     const Strides strides = read_strides(output.stride, output.component_stride, result.scalar, components);
     if (output.stride == RW_REPEAT) throw bad_argument(name + ": RW_REPEAT would write every answer to one place");
-    if (overlaps(strides, size_of(result.scalar), count, components)) throw bad_argument(name + ": its strides let elements overlap");
+    if (overlaps(strides, size_of(result.scalar), count, components))
+        throw bad_argument(name + ": its strides let elements overlap");
     result.data = static_cast<std::byte*>(output.data);
     result.stride = strides.stride;
     result.component_stride = strides.component_stride;
@@ -96,8 +107,10 @@ TriangleArrays read_triangles(const rw_triangles& triangles) {
     TriangleArrays arrays;
     arrays.vertex_count = triangles.vertex_count;
     arrays.triangle_count = triangles.triangle_count;
-    arrays.vertices = read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, "triangles.vertices");
-    arrays.indices = read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, "triangles.indices");
+    arrays.vertices =
+        read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, "triangles.vertices");
+    arrays.indices =
+        read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, "triangles.indices");
     return arrays;
 }
 
@@ -106,7 +119,8 @@ RayArrays read_rays(const rw_rays* source, const char* name) {
     const std::string prefix = std::string(name) + ".";
     if (rays.flags != 0) throw bad_argument(prefix + "flags: " + std::to_string(rays.flags) + " has an unknown bit");
     if (rays.count > RW_RAYS_LIMIT) {
-        throw Error(Status::ERROR_TOO_MANY, prefix + "count: " + std::to_string(rays.count) + " is above " + std::to_string(RW_RAYS_LIMIT));
+        throw Error(Status::ERROR_TOO_MANY,
+                    prefix + "count: " + std::to_string(rays.count) + " is above " + std::to_string(RW_RAYS_LIMIT));
     }
     RayArrays arrays;
     arrays.count = rays.count;
@@ -132,11 +146,15 @@ HitArrays read_hits(const rw_hits* source, std::uint64_t count) {
 
 Ray read_ray(const rw_ray* source) {
     const rw_ray& ray = required(source, "ray");
-    return {{ray.origin[0], ray.origin[1], ray.origin[2]}, ray.tmin, {ray.direction[0], ray.direction[1], ray.direction[2]}, ray.tmax};
+    return {{ray.origin[0], ray.origin[1], ray.origin[2]},
+            ray.tmin,
+            {ray.direction[0], ray.direction[1], ray.direction[2]},
+            ray.tmax};
 }
 
 rw_hit write_hit(const Hit& hit) {
-    return {hit.t, hit.u, hit.v, {hit.normal.x, hit.normal.y, hit.normal.z}, hit.instance, hit.geometry, hit.primitive, 0};
+    return {hit.t,        hit.u,        hit.v,         {hit.normal.x, hit.normal.y, hit.normal.z},
+            hit.instance, hit.geometry, hit.primitive, 0};
 }
 
 Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name) {
@@ -149,7 +167,8 @@ Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name)
     if (count == RW_RAYS_UNKNOWN) return workload;
     if (count == 0 || count > RW_RAYS_LIMIT) {
         throw Error(Status::ERROR_RAY_COUNT, prefix + "count: " + std::to_string(count) + " is not between 1 and " +
-                                                 std::to_string(RW_RAYS_LIMIT) + "; RW_RAYS_UNKNOWN says that nobody knows");
+                                                 std::to_string(RW_RAYS_LIMIT) +
+                                                 "; RW_RAYS_UNKNOWN says that nobody knows");
     }
     workload.rays = count;
     return workload;
@@ -168,7 +187,9 @@ std::optional<Structure> read_structure(const char* name) {
 Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void* user) {
     if (parallel_for == nullptr) return Parallel(threads);
     return Parallel(threads, [parallel_for, user](std::uint64_t count, const Parallel::Task& task) {
-        const rw_task call = [](void* data, std::uint64_t index) { (*static_cast<const Parallel::Task*>(data))(index); };
+        const rw_task call = [](void* data, std::uint64_t index) {
+            (*static_cast<const Parallel::Task*>(data))(index);
+        };
         parallel_for(user, count, call, const_cast<Parallel::Task*>(&task));
     });
 }
@@ -179,7 +200,8 @@ Progress::Callback read_progress(rw_progress progress, void* user) {
 }
 
 bool is_json(std::int32_t format) {
-    if (format != RW_FORMAT_TEXT && format != RW_FORMAT_JSON) throw bad_argument("format: " + std::to_string(format) + " is no format");
+    if (format != RW_FORMAT_TEXT && format != RW_FORMAT_JSON)
+        throw bad_argument("format: " + std::to_string(format) + " is no format");
     return format == RW_FORMAT_JSON;
 }
 
@@ -191,7 +213,8 @@ std::int32_t write_text(const std::string& text, char* buffer, std::uint64_t cap
     std::memcpy(buffer, text.data(), copied);
     buffer[copied] = '\0';
     if (copied == text.size()) return RW_OK;
-    throw Error(Status::ERROR_CAPACITY, "buffer: " + std::to_string(text.size() + 1) + " bytes are needed, capacity is " + std::to_string(capacity));
+    throw Error(Status::ERROR_CAPACITY, "buffer: " + std::to_string(text.size() + 1) +
+                                            " bytes are needed, capacity is " + std::to_string(capacity));
 }
 
 } // namespace raywise::capi

@@ -22,12 +22,13 @@ T read_struct(const T* source, const char* name) {
     std::uint32_t size = 0;
     std::memcpy(&size, &required(source, name), sizeof size);
     if (size < sizeof(T) || size > 4096) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": struct_size is " + std::to_string(size) + ", it should be " +
-                                                        std::to_string(sizeof(T)));
+        throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": struct_size is " + std::to_string(size) +
+                                                        ", it should be " + std::to_string(sizeof(T)));
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(source);
     if (std::any_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte != 0; })) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": it sets a member that this version of the library does not know");
+        throw Error(Status::ERROR_INVALID_ARGUMENT,
+                    std::string(name) + ": it sets a member that this version of the library does not know");
     }
     T copy;
     std::memcpy(&copy, source, sizeof copy);
@@ -50,14 +51,22 @@ void write_struct(T* target, const char* name, T value) {
     std::memcpy(target, &value, sizeof value);
 }
 
-enum class Elements { numbers, indices };
+enum class Elements {
+    numbers,
+    indices
+};
 
 // components: 1, 2 or 3. required: whether data may be NULL.
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
                         const std::string& name);
 
-enum class OutputKind { numbers, ids, flags };
-OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind, const std::string& name);
+enum class OutputKind {
+    numbers,
+    ids,
+    flags
+};
+OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
+                        const std::string& name);
 
 TriangleArrays read_triangles(const rw_triangles& triangles);
 RayArrays read_rays(const rw_rays* rays, const char* name);

@@ -23,7 +23,9 @@ struct Handle {
     mutable std::atomic<std::uint64_t> references{1};
 };
 
-inline Error null_argument(const char* name) { return {Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": it is NULL"}; }
+inline Error null_argument(const char* name) {
+    return {Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": it is NULL"};
+}
 
 // The argument of that name, or an error when it is NULL.
 template <class T>

@@ -7,8 +7,8 @@ using namespace raywise::capi;
 namespace {
 
 // A committed scene over the caller's arrays, planned for exactly these rays.
-Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_once_options& options,
-                 const rw_query_options& query) {
+Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
+                 const rw_once_options& options, const rw_query_options& query) {
     Scene scene(options.profile != nullptr ? options.profile->value : std::make_shared<const Profile>(find_profile()));
     if (mesh_count > 0) required(meshes, "meshes");
     const auto* bytes = reinterpret_cast<const std::byte*>(meshes);
@@ -37,8 +37,8 @@ Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_
 
 extern "C" {
 
-std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_hits* hits,
-                               const rw_once_options* options) {
+std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
+                               const rw_hits* hits, const rw_once_options* options) {
     return guard([&] {
         const rw_once_options o = read_optional_struct(options, "options");
         const rw_query_options query = read_optional_struct(o.query, "options.query");
@@ -47,8 +47,8 @@ std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_co
     });
 }
 
-std::int32_t rw_once_occluded(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays, const rw_output* answers,
-                              const rw_once_options* options) {
+std::int32_t rw_once_occluded(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
+                              const rw_output* answers, const rw_once_options* options) {
     return guard([&] {
         const rw_once_options o = read_optional_struct(options, "options");
         const rw_query_options query = read_optional_struct(o.query, "options.query");

@@ -43,7 +43,8 @@ std::int32_t rw_profile_inspect(const rw_profile* profile, rw_profile_info* info
     });
 }
 
-std::int32_t rw_profile_text(const rw_profile* profile, std::int32_t format, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {
+std::int32_t rw_profile_text(const rw_profile* profile, std::int32_t format, char* buffer, std::uint64_t capacity,
+                             std::uint64_t* needed) {
     return guard([&] {
         const Profile& p = *required(profile, "profile").value;
         return write_text(is_json(format) ? to_json(p) : to_text(p), buffer, capacity, needed);

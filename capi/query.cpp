@@ -14,12 +14,14 @@ void report_invalid(const rw_query_options& options, std::uint64_t invalid) {
 }
 
 Error over_capacity(std::uint64_t needed, std::uint64_t capacity) {
-    return {Status::ERROR_CAPACITY, "hits: there are " + std::to_string(needed) + ", capacity is " + std::to_string(capacity)};
+    return {Status::ERROR_CAPACITY,
+            "hits: there are " + std::to_string(needed) + ", capacity is " + std::to_string(capacity)};
 }
 
 } // namespace
 
-void intersect_all(const Tracer& tracer, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) {
+void intersect_all(const Tracer& tracer, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
+                   std::uint64_t* needed) {
     const Ray r = read_ray(ray);
     std::uint64_t& count = required(needed, "needed");
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
@@ -37,7 +39,8 @@ void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* h
     report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o)));
 }
 
-void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers, const rw_query_options* options) {
+void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers,
+                    const rw_query_options* options) {
     const RayArrays in = read_rays(rays, "rays");
     const OutputArray out = read_output(required(answers, "occluded"), in.count, 1, OutputKind::flags, "occluded");
     if (!out.wanted() && in.count > 0) throw Error(Status::ERROR_INVALID_ARGUMENT, "occluded: data is NULL");
@@ -62,13 +65,15 @@ void candidate_count(std::uint32_t* count) { required(count, "count") = static_c
 
 void get_candidate(const Plan& plan, const Tracer& tracer, std::uint32_t index, rw_candidate* candidate) {
     if (index >= structure_count) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT, "index: " + std::to_string(index) + " is not below " + std::to_string(structure_count));
+        throw Error(Status::ERROR_INVALID_ARGUMENT,
+                    "index: " + std::to_string(index) + " is not below " + std::to_string(structure_count));
     }
     const CandidateReport report = report_candidate(plan, tracer, static_cast<Structure>(index));
     const PlannedCandidate& figures = report.figures;
     rw_candidate facts{};
     facts.flags = (report.chosen ? RW_CANDIDATE_CHOSEN : 0u) | (report.forced ? RW_CANDIDATE_FORCED : 0u) |
-                  (figures.over_limit ? RW_CANDIDATE_OVER_LIMIT : 0u) | (figures.measured ? RW_CANDIDATE_MEASURED : 0u) |
+                  (figures.over_limit ? RW_CANDIDATE_OVER_LIMIT : 0u) |
+                  (figures.measured ? RW_CANDIDATE_MEASURED : 0u) |
                   (figures.applicable ? 0u : RW_CANDIDATE_NOT_APPLICABLE);
     facts.structure = name_of(report.structure);
     facts.predicted_build_ns = figures.predicted.build_ns;
@@ -85,7 +90,8 @@ void get_candidate(const Plan& plan, const Tracer& tracer, std::uint32_t index, 
 
 std::int32_t explain(const Plan& plan, const Tracer& tracer, const Profile& profile, std::int32_t format, char* buffer,
                      std::uint64_t capacity, std::uint64_t* needed) {
-    return write_text(is_json(format) ? explain_json(plan, tracer, profile) : explain_text(plan, tracer, profile), buffer, capacity, needed);
+    return write_text(is_json(format) ? explain_json(plan, tracer, profile) : explain_text(plan, tracer, profile),
+                      buffer, capacity, needed);
 }
 
 } // namespace raywise::capi

@@ -16,7 +16,8 @@ std::int32_t rw_structure_name(std::uint32_t index, const char** name) {
     return guard([&] {
         const char*& out = required(name, "name");
         if (index >= structure_count) {
-            throw Error(Status::ERROR_INVALID_ARGUMENT, "index: " + std::to_string(index) + " is not below " + std::to_string(structure_count));
+            throw Error(Status::ERROR_INVALID_ARGUMENT,
+                        "index: " + std::to_string(index) + " is not below " + std::to_string(structure_count));
         }
         out = structure_names[index];
     });
@@ -61,7 +62,8 @@ std::int32_t rw_scene_get_grid_statistics(const rw_scene* scene, rw_grid_statist
         const Scene& s = *required(scene, "scene").value;
         const auto* grid = dynamic_cast<const UniformGrid*>(&s.tracer().accel());
         if (grid == nullptr) {
-            throw Error(Status::ERROR_WRONG_STRUCTURE, std::string("scene: its structure is ") + name_of(s.plan().chosen) + ", not uniform_grid");
+            throw Error(Status::ERROR_WRONG_STRUCTURE,
+                        std::string("scene: its structure is ") + name_of(s.plan().chosen) + ", not uniform_grid");
         }
         const GridStatistics& g = grid->statistics();
         rw_grid_statistics facts{};

@@ -14,21 +14,27 @@ std::int32_t rw_scene_occluded(const rw_scene* scene, const rw_ray* ray, std::in
     return guard([&] { occluded(required(scene, "scene").value->tracer(), ray, answer); });
 }
 
-std::int32_t rw_scene_intersect_all(const rw_scene* scene, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) {
+std::int32_t rw_scene_intersect_all(const rw_scene* scene, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
+                                    std::uint64_t* needed) {
     return guard([&] { intersect_all(required(scene, "scene").value->tracer(), ray, hits, capacity, needed); });
 }
 
-std::int32_t rw_scene_intersect_batch(const rw_scene* scene, const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) {
+std::int32_t rw_scene_intersect_batch(const rw_scene* scene, const rw_rays* rays, const rw_hits* hits,
+                                      const rw_query_options* options) {
     return guard([&] { intersect_batch(required(scene, "scene").value->tracer(), rays, hits, options); });
 }
 
-std::int32_t rw_scene_occluded_batch(const rw_scene* scene, const rw_rays* rays, const rw_output* answers, const rw_query_options* options) {
+std::int32_t rw_scene_occluded_batch(const rw_scene* scene, const rw_rays* rays, const rw_output* answers,
+                                     const rw_query_options* options) {
     return guard([&] { occluded_batch(required(scene, "scene").value->tracer(), rays, answers, options); });
 }
 
-std::int32_t rw_scene_intersect_all_batch(const rw_scene* scene, const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits,
-                                          std::uint64_t capacity, std::uint64_t* needed, const rw_query_options* options) {
-    return guard([&] { intersect_all_batch(required(scene, "scene").value->tracer(), rays, offsets, hits, capacity, needed, options); });
+std::int32_t rw_scene_intersect_all_batch(const rw_scene* scene, const rw_rays* rays, std::uint64_t* offsets,
+                                          const rw_hits* hits, std::uint64_t capacity, std::uint64_t* needed,
+                                          const rw_query_options* options) {
+    return guard([&] {
+        intersect_all_batch(required(scene, "scene").value->tracer(), rays, offsets, hits, capacity, needed, options);
+    });
 }
 
 std::int32_t rw_scene_candidate_count(const rw_scene* scene, std::uint32_t* count) {
@@ -45,7 +51,8 @@ std::int32_t rw_scene_get_candidate(const rw_scene* scene, std::uint32_t index, 
     });
 }
 
-std::int32_t rw_scene_explain(const rw_scene* scene, std::int32_t format, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {
+std::int32_t rw_scene_explain(const rw_scene* scene, std::int32_t format, char* buffer, std::uint64_t capacity,
+                              std::uint64_t* needed) {
     return guard([&] {
         const Scene& value = *required(scene, "scene").value;
         return explain(value.plan(), value.tracer(), *value.profile(), format, buffer, capacity, needed);

@@ -43,10 +43,12 @@ std::int32_t rw_abi_version(std::uint32_t* abi) {
 const char* rw_status_text(std::int32_t status) {
     switch (status) {
 #define RW_STATUS(name, value, text) \
-    case value: return text;
+    case value:                      \
+        return text;
 #include "base/status_list.def"
 #undef RW_STATUS
-    default: return "a status this version of the library does not know";
+        default:
+            return "a status this version of the library does not know";
     }
 }
 

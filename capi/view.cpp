@@ -12,16 +12,21 @@ ViewFrame read_frame(const rw_view_options& options) {
     ViewFrame frame;
     frame.origin = {options.origin[0], options.origin[1], options.origin[2]};
     frame.direction = {options.direction[0], options.direction[1], options.direction[2]};
-    if (!is_finite(frame.origin)) throw Error(Status::ERROR_NOT_FINITE, "options.origin: a coordinate is NaN or infinite");
-    if (!is_finite(frame.direction)) throw Error(Status::ERROR_NOT_FINITE, "options.direction: a coordinate is NaN or infinite");
+    if (!is_finite(frame.origin))
+        throw Error(Status::ERROR_NOT_FINITE, "options.origin: a coordinate is NaN or infinite");
+    if (!is_finite(frame.direction))
+        throw Error(Status::ERROR_NOT_FINITE, "options.direction: a coordinate is NaN or infinite");
     const bool directed = frame.direction != Vec3(0.0);
     if (options.kind == RW_VIEW_DIRECTION) {
-        if (!directed) throw Error(Status::ERROR_INVALID_ARGUMENT, "options.direction: a view along a direction needs one that is not zero");
+        if (!directed)
+            throw Error(Status::ERROR_INVALID_ARGUMENT,
+                        "options.direction: a view along a direction needs one that is not zero");
         frame.kind = ViewFrame::Kind::direction;
         return frame;
     }
     if (options.kind != RW_VIEW_POINT) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT, "options.kind: " + std::to_string(options.kind) + " is no kind of view");
+        throw Error(Status::ERROR_INVALID_ARGUMENT,
+                    "options.kind: " + std::to_string(options.kind) + " is no kind of view");
     }
     constexpr double half_pi = 1.5707963267948966;
     if (!(options.half_angle >= 0.0 && options.half_angle < half_pi)) {
@@ -35,7 +40,8 @@ ViewFrame read_frame(const rw_view_options& options) {
 
 extern "C" {
 
-std::int32_t rw_view_create(const rw_scene* scene, const rw_view_options* options, const rw_commit_options* commit, rw_view** view) {
+std::int32_t rw_view_create(const rw_scene* scene, const rw_view_options* options, const rw_commit_options* commit,
+                            rw_view** view) {
     return guard([&] {
         const std::shared_ptr<Scene>& s = required(scene, "scene").value;
         s->tracer(); // an error unless committed
@@ -44,7 +50,8 @@ std::int32_t rw_view_create(const rw_scene* scene, const rw_view_options* option
         const rw_commit_options c = read_optional_struct(commit, "commit");
         ViewRequest request;
         request.frame = read_frame(o);
-        request.workload = read_workload(o.count, o.ray_kind == RW_RAYS_ANY_KIND ? RW_RAYS_CAMERA : o.ray_kind, "options");
+        request.workload =
+            read_workload(o.count, o.ray_kind == RW_RAYS_ANY_KIND ? RW_RAYS_CAMERA : o.ray_kind, "options");
         request.forced = read_structure(o.structure);
         Progress progress(read_progress(c.progress, c.progress_user));
         const Parallel parallel = read_parallel(c.threads, c.parallel_for, c.parallel_user);
@@ -68,21 +75,27 @@ std::int32_t rw_view_occluded(const rw_view* view, const rw_ray* ray, std::int32
     return guard([&] { occluded(required(view, "view").value->tracer(), ray, answer); });
 }
 
-std::int32_t rw_view_intersect_all(const rw_view* view, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) {
+std::int32_t rw_view_intersect_all(const rw_view* view, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
+                                   std::uint64_t* needed) {
     return guard([&] { intersect_all(required(view, "view").value->tracer(), ray, hits, capacity, needed); });
 }
 
-std::int32_t rw_view_intersect_batch(const rw_view* view, const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) {
+std::int32_t rw_view_intersect_batch(const rw_view* view, const rw_rays* rays, const rw_hits* hits,
+                                     const rw_query_options* options) {
     return guard([&] { intersect_batch(required(view, "view").value->tracer(), rays, hits, options); });
 }
 
-std::int32_t rw_view_occluded_batch(const rw_view* view, const rw_rays* rays, const rw_output* answers, const rw_query_options* options) {
+std::int32_t rw_view_occluded_batch(const rw_view* view, const rw_rays* rays, const rw_output* answers,
+                                    const rw_query_options* options) {
     return guard([&] { occluded_batch(required(view, "view").value->tracer(), rays, answers, options); });
 }
 
-std::int32_t rw_view_intersect_all_batch(const rw_view* view, const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits,
-                                          std::uint64_t capacity, std::uint64_t* needed, const rw_query_options* options) {
-    return guard([&] { intersect_all_batch(required(view, "view").value->tracer(), rays, offsets, hits, capacity, needed, options); });
+std::int32_t rw_view_intersect_all_batch(const rw_view* view, const rw_rays* rays, std::uint64_t* offsets,
+                                         const rw_hits* hits, std::uint64_t capacity, std::uint64_t* needed,
+                                         const rw_query_options* options) {
+    return guard([&] {
+        intersect_all_batch(required(view, "view").value->tracer(), rays, offsets, hits, capacity, needed, options);
+    });
 }
 
 std::int32_t rw_view_candidate_count(const rw_view* view, std::uint32_t* count) {
@@ -99,7 +112,8 @@ std::int32_t rw_view_get_candidate(const rw_view* view, std::uint32_t index, rw_
     });
 }
 
-std::int32_t rw_view_explain(const rw_view* view, std::int32_t format, char* buffer, std::uint64_t capacity, std::uint64_t* needed) {
+std::int32_t rw_view_explain(const rw_view* view, std::int32_t format, char* buffer, std::uint64_t capacity,
+                             std::uint64_t* needed) {
     return guard([&] {
         const View& value = *required(view, "view").value;
         return explain(value.plan(), value.tracer(), *value.scene().profile(), format, buffer, capacity, needed);

@@ -22,7 +22,10 @@ struct BuildCosts {
 
 // The point rays start at, or the direction they run along; see rw_view_options.
 struct ViewFrame {
-    enum class Kind { point, direction };
+    enum class Kind {
+        point,
+        direction
+    };
     Kind kind = Kind::point;
     Vec3 origin{0.0};
     Vec3 direction{0.0};     // zero for a point that looks all around
@@ -34,7 +37,8 @@ struct BuildInput {
     BuildCosts costs;
     std::optional<ViewFrame> view; // for structures that are projected
     const Parallel& parallel;
-    Progress& progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
+    Progress&
+        progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
 };
 
 // A built structure. Immutable: any number of threads may ask at the same time.

@@ -27,7 +27,8 @@ namespace raywise {
 // comparisons of may_hit pass with three quarters of the margin to spare.
 class BoxRay {
 public:
-    BoxRay(const PreparedRay& ray, const Vec3& center) : inverse_(ray.inverse), tmin_(ray.tmin - ray.margin), margin_(ray.margin) {
+    BoxRay(const PreparedRay& ray, const Vec3& center)
+        : inverse_(ray.inverse), tmin_(ray.tmin - ray.margin), margin_(ray.margin) {
         const double slack = 0x1p-16 * ray.margin; // 2^-50 of the reach
         for (int axis = 0; axis < 3; ++axis) {
             const bool backwards = std::signbit(inverse_[axis]);

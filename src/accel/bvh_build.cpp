@@ -137,7 +137,9 @@ struct Bins {
         }
     }
     Bin& at(int axis, int bin) { return bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin)]; }
-    const Bin& at(int axis, int bin) const { return bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin)]; }
+    const Bin& at(int axis, int bin) const {
+        return bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin)];
+    }
 };
 
 // A node to be built: references [begin, end).
@@ -498,7 +500,8 @@ private:
     std::pair<Range, Range> halve(const Range& range, const CentroidBounds& centroids) {
         const int axis = centroids.longest_axis();
         const std::uint32_t middle = range.begin + range.count() / 2;
-        std::nth_element(references_.begin() + range.begin, references_.begin() + middle, references_.begin() + range.end,
+        std::nth_element(references_.begin() + range.begin, references_.begin() + middle,
+                         references_.begin() + range.end,
                          [axis](const BuildReference& a, const BuildReference& b) { return before(a, b, axis); });
         Bounds left = Bounds::none();
         Bounds right = Bounds::none();
@@ -507,7 +510,8 @@ private:
         return cut(range, middle, left, right);
     }
 
-    static std::pair<Range, Range> cut(const Range& range, std::uint32_t middle, const Bounds& left, const Bounds& right) {
+    static std::pair<Range, Range> cut(const Range& range, std::uint32_t middle, const Bounds& left,
+                                       const Bounds& right) {
         return {{range.begin, middle, range.depth + 1, left}, {middle, range.end, range.depth + 1, right}};
     }
 
@@ -554,8 +558,6 @@ private:
 
 } // namespace
 
-BvhTree build_bvh(const BuildInput& input, double progress_end) {
-    return BvhBuilder(input, progress_end).build();
-}
+BvhTree build_bvh(const BuildInput& input, double progress_end) { return BvhBuilder(input, progress_end).build(); }
 
 } // namespace raywise

@@ -145,8 +145,11 @@ private:
 } // namespace
 
 PlaneRay::PlaneRay(const PreparedRay& ray, const ProjectedRay& projected, const PlaneTree& tree)
-    : cut_(float_above(projected.cut - tree.depth_center)), depth_(projected.depth - tree.depth_center), rate_(projected.depth_rate),
-      depth_error_(projected.depth_error), margin_(ray.margin) {
+    : cut_(float_above(projected.cut - tree.depth_center)),
+      depth_(projected.depth - tree.depth_center),
+      rate_(projected.depth_rate),
+      depth_error_(projected.depth_error),
+      margin_(ray.margin) {
     for (int i = 0; i < 2; ++i) {
         sides_[i] = float_above(projected.upper[i] - tree.center[i]);
         sides_[2 + i] = -float_below(projected.lower[i] - tree.center[i]);

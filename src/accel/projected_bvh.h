@@ -48,8 +48,8 @@ inline bool none_above(const float* a, const float* b) {
 
 // 32 bytes.
 struct PlaneNode {
-    float sides[4];      // lower u, lower v, -upper u, -upper v: a ray's rectangle overlaps when none is above the ray's
-    float near;          // range of depth
+    float sides[4]; // lower u, lower v, -upper u, -upper v: a ray's rectangle overlaps when none is above the ray's
+    float near;     // range of depth
     float far;
     std::uint32_t first; // as in BvhNode
     std::uint32_t count;
@@ -72,9 +72,12 @@ struct PlaneTree {
     double widest_ray = 0.0; // a wider rectangle would meet so many others that the ray had better take the 3D tree
     PlaneNode root{};
     std::vector<PlanePair> pairs;
-    std::vector<std::uint32_t> boxes; // for each node of pairs its node in the 3D tree: 2 * pair + child; combined scheme only
+    std::vector<std::uint32_t>
+        boxes; // for each node of pairs its node in the 3D tree: 2 * pair + child; combined scheme only
 
-    std::size_t bytes() const { return pairs.capacity() * sizeof(PlanePair) + boxes.capacity() * sizeof(std::uint32_t); }
+    std::size_t bytes() const {
+        return pairs.capacity() * sizeof(PlanePair) + boxes.capacity() * sizeof(std::uint32_t);
+    }
 };
 
 // A ray in the coordinates of a PlaneTree.
@@ -156,7 +159,8 @@ private:
 };
 
 template <class Visitor, class BoxTest>
-void ProjectedBvh::traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor, const BoxTest& may_hit_box) const {
+void ProjectedBvh::traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor,
+                                  const BoxTest& may_hit_box) const {
     const PlaneNode* stack[bvh_max_depth]; // at most one per level
     int height = 0;
     const int first_child = ray.is_forward() ? 0 : 1;

@@ -48,7 +48,9 @@ ProjectionPlane::Coordinates ProjectionPlane::coordinates(const Vec3& point) con
 }
 
 ProjectionPlane::ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const Vec3& forward, const Box& bounds)
-    : kind_(kind), origin_(origin), forward_(forward / std::sqrt(glm::dot(forward, forward))),
+    : kind_(kind),
+      origin_(origin),
+      forward_(forward / std::sqrt(glm::dot(forward, forward))),
       reach_(max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)))) {
     // Across: the axis of coordinates that is farthest from `forward` keeps the frame well conditioned; for a cube's planes
     // the frame is made of the axes themselves and does not round.
@@ -105,7 +107,8 @@ Footprint ProjectionPlane::footprint(const Corners& corners) const {
     // A linear map: the corners' extremes, with their errors.
     Footprint footprint;
     for (const Coordinates& corner : c) {
-        footprint.extend({{corner.low(0), corner.low(1)}, {corner.high(0), corner.high(1)}, corner.low(2), corner.high(2)});
+        footprint.extend(
+            {{corner.low(0), corner.low(1)}, {corner.high(0), corner.high(1)}, corner.low(2), corner.high(2)});
     }
     return footprint;
 }
@@ -138,7 +141,7 @@ Footprint ProjectionPlane::point_footprint(const Corners& corners, const Coordin
             const auto high = [&](const Coordinates& p) { return side == 0 ? p.high(i) : -p.low(i); };
             const auto low = [&](const Coordinates& p) { return side == 0 ? p.low(i) : -p.high(i); };
 
-            bool outside = true;  // beyond the clip limit on this side
+            bool outside = true;     // beyond the clip limit on this side
             double least = infinity; // of the coordinate
             double slope = -infinity;
             for (const Coordinates& p : c) {
@@ -181,13 +184,15 @@ bool ProjectionPlane::may_touch_core(const Corners& corners, const Coordinates (
     const double m = max_component(glm::abs(p));
     const double e = std::max(max_component(glm::abs(a)), max_component(glm::abs(b)));
     const Vec3 n = glm::cross(a, b);
-    return !(e > 1e-120 && std::fabs(glm::dot(n, p)) > distance * sum_of_magnitudes(n) + 0x1p-44 * e * e * (m + distance));
+    return !(e > 1e-120 &&
+             std::fabs(glm::dot(n, p)) > distance * sum_of_magnitudes(n) + 0x1p-44 * e * e * (m + distance));
 }
 
 // ---- Rays.
 
 bool ProjectionPlane::project(const PreparedRay& ray, ProjectedRay& projected) const {
-    return kind_ == ViewFrame::Kind::point ? project_from_point(ray, projected) : project_along_direction(ray, projected);
+    return kind_ == ViewFrame::Kind::point ? project_from_point(ray, projected)
+                                           : project_along_direction(ray, projected);
 }
 
 // Of z0 + t * rate, at all points of the scene. `offset`: of the ray's origin. z0 is wrong by less than 2^-50 of
@@ -226,7 +231,8 @@ bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& p
         depth = glm::dot(forward_, offset);
         const double x = glm::dot(right_, offset) - depth * b.x;
         const double y = glm::dot(up_, offset) - depth * b.y;
-        const double error = 0x1p-47 * sum_of_magnitudes(offset) * (1.0 + slope) + 2.0 * std::fabs(depth) * slope_error + tiny;
+        const double error =
+            0x1p-47 * sum_of_magnitudes(offset) * (1.0 + slope) + 2.0 * std::fabs(depth) * slope_error + tiny;
         a = std::max(std::fabs(x), std::fabs(y)) + error;
         if (!(a <= core_)) return false; // passes the point
     }
@@ -284,7 +290,8 @@ int ViewPlanes::choose(const PreparedRay& ray) const {
     if (planes_.size() < 6) return static_cast<int>(planes_.size()) - 1;
     // Away from the point, or towards it.
     const Vec3 offset = ray.origin - planes_.front().origin_;
-    const bool away = !(max_component(glm::abs(offset)) > 0.5 * planes_.front().core_) || glm::dot(offset, ray.direction) >= 0.0;
+    const bool away =
+        !(max_component(glm::abs(offset)) > 0.5 * planes_.front().core_) || glm::dot(offset, ray.direction) >= 0.0;
     const bool positive = (ray.direction[ray.major_axis] > 0.0) == away;
     return 2 * ray.major_axis + (positive ? 0 : 1);
 }

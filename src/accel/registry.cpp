@@ -11,7 +11,8 @@ namespace raywise {
 std::unique_ptr<Accel> build(Structure structure, const BuildInput& input) {
     switch (structure) {
 #define RW_STRUCTURE(name, type) \
-    case Structure::name: return std::make_unique<type>(input);
+    case Structure::name:        \
+        return std::make_unique<type>(input);
 #include "base/structure_list.def"
 #undef RW_STRUCTURE
     }

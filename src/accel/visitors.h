@@ -14,7 +14,8 @@ namespace raywise {
 
 class ClosestVisitor {
 public:
-    ClosestVisitor(const Primitives& primitives, const PreparedRay& ray) : primitives_(primitives), ray_(ray), limit_(ray.tmax) {}
+    ClosestVisitor(const Primitives& primitives, const PreparedRay& ray)
+        : primitives_(primitives), ray_(ray), limit_(ray.tmax) {}
 
     bool visit(std::uint32_t primitive) {
         PrimitiveHit hit;
@@ -68,9 +69,10 @@ public:
     void remove_repeats() {
         const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(first_);
         std::sort(first, hits_.end());
-        hits_.erase(std::unique(first, hits_.end(),
-                                [](const PrimitiveHit& a, const PrimitiveHit& b) { return a.primitive == b.primitive; }),
-                    hits_.end());
+        hits_.erase(
+            std::unique(first, hits_.end(),
+                        [](const PrimitiveHit& a, const PrimitiveHit& b) { return a.primitive == b.primitive; }),
+            hits_.end());
     }
 
 private:

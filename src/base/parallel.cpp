@@ -43,9 +43,7 @@ private:
 Parallel::Parallel(unsigned threads, Host host)
     : threads_(threads == 0 ? usable_threads() : std::min(threads, usable_threads())), host_(std::move(host)) {}
 
-unsigned Parallel::usable_threads() {
-    return static_cast<unsigned>(std::max(1, tbb::info::default_concurrency()));
-}
+unsigned Parallel::usable_threads() { return static_cast<unsigned>(std::max(1, tbb::info::default_concurrency())); }
 
 void Parallel::for_each(std::uint64_t count, const Task& task) const {
     if (count == 0) return;
@@ -77,9 +75,8 @@ void Parallel::for_each(std::uint64_t count, const Task& task) const {
         return;
     }
     tbb::task_arena arena(static_cast<int>(threads_));
-    arena.execute([&] {
-        tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) { exception.run([&] { task(i); }); });
-    });
+    arena.execute(
+        [&] { tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) { exception.run([&] { task(i); }); }); });
     exception.rethrow();
 }
 

@@ -41,7 +41,8 @@ public:
     // bounds: of the whole scene. The ray has to be valid (see is_traceable).
     PreparedRay(const Ray& ray, const Box& bounds) : origin(ray.origin) {
         const Vec3 magnitude = glm::abs(ray.direction);
-        major_axis = magnitude.x >= magnitude.y ? (magnitude.x >= magnitude.z ? 0 : 2) : (magnitude.y >= magnitude.z ? 1 : 2);
+        major_axis =
+            magnitude.x >= magnitude.y ? (magnitude.x >= magnitude.z ? 0 : 2) : (magnitude.y >= magnitude.z ? 1 : 2);
         scale_exponent_ = std::ilogb(magnitude[major_axis]);
         for (int axis = 0; axis < 3; ++axis) {
             direction[axis] = std::ldexp(ray.direction[axis], -scale_exponent_);

@@ -22,9 +22,7 @@ inline constexpr std::array structure_names = {
 
 inline constexpr std::size_t structure_count = structure_names.size();
 
-constexpr const char* name_of(Structure structure) {
-    return structure_names[static_cast<std::size_t>(structure)];
-}
+constexpr const char* name_of(Structure structure) { return structure_names[static_cast<std::size_t>(structure)]; }
 
 inline std::optional<Structure> structure_named(std::string_view name) {
     for (std::size_t i = 0; i < structure_count; ++i) {

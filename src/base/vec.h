@@ -21,9 +21,7 @@ inline typename Vector::value_type at(const Vector& v, int axis) {
     return glm::value_ptr(v)[axis];
 }
 
-inline bool is_finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 inline double max_component(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
 

@@ -87,17 +87,21 @@ void HitArrays::put(std::uint64_t element, const Hit& hit) const {
     if (primitive.wanted()) primitive.put_id(element, hit.primitive);
 }
 
-std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits, const Parallel& parallel) {
-    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray) { hits.put(i, tracer.closest(ray)); });
+std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
+                              const Parallel& parallel) {
+    return for_each_ray(tracer, rays, parallel,
+                        [&](std::uint64_t i, const Ray& ray) { hits.put(i, tracer.closest(ray)); });
 }
 
-std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded, const Parallel& parallel) {
+std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
+                             const Parallel& parallel) {
     return for_each_ray(tracer, rays, parallel,
                         [&](std::uint64_t i, const Ray& ray) { occluded.put_integer(i, tracer.any(ray) ? 1 : 0); });
 }
 
-std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets, const HitArrays& hits,
-                                  std::uint64_t capacity, std::uint64_t& needed, const Parallel& parallel) {
+std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
+                                  const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
+                                  const Parallel& parallel) {
     std::vector<std::vector<Hit>> found(rays.count);
     const std::uint64_t invalid =
         for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray) { tracer.all(ray, found[i]); });

@@ -45,11 +45,14 @@ struct HitArrays {
 };
 
 // Each returns how many of the rays held a NaN.
-std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits, const Parallel& parallel);
-std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded, const Parallel& parallel);
+std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
+                              const Parallel& parallel);
+std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
+                             const Parallel& parallel);
 
 // Writes rays.count + 1 offsets, and the hits when they fit the capacity. Returns through `needed` how many there are.
-std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets, const HitArrays& hits,
-                                  std::uint64_t capacity, std::uint64_t& needed, const Parallel& parallel);
+std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
+                                  const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
+                                  const Parallel& parallel);
 
 } // namespace raywise

@@ -41,7 +41,7 @@ public:
     // Error(ERROR_TOO_MANY) when all meshes together exceed the ids.
     explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes);
 
-    std::uint32_t count() const { return count_; }                       // all ids
+    std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
     const Box& bounds() const { return bounds_; }                        // of all hittable primitives
     std::uint64_t degenerate_count() const { return degenerate_count_; } // without area

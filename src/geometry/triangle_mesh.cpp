@@ -63,23 +63,27 @@ Corners TriangleMesh::corners(std::uint32_t triangle) const {
         const std::uint64_t first = std::uint64_t{3} * triangle;
         return {arrays_.vertices.vec3(first), arrays_.vertices.vec3(first + 1), arrays_.vertices.vec3(first + 2)};
     }
-    return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)), arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
+    return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)),
+            arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
             arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
 }
 
 void TriangleMesh::check(bool skip_invalid) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     if (arrays_.vertex_count > most) {
-        throw Error(Status::ERROR_TOO_MANY, "vertex_count: " + std::to_string(arrays_.vertex_count) + " is above 4294967295");
+        throw Error(Status::ERROR_TOO_MANY,
+                    "vertex_count: " + std::to_string(arrays_.vertex_count) + " is above 4294967295");
     }
     if (arrays_.triangle_count >= most) {
-        throw Error(Status::ERROR_TOO_MANY, "triangle_count: " + std::to_string(arrays_.triangle_count) + " is above 4294967294");
+        throw Error(Status::ERROR_TOO_MANY,
+                    "triangle_count: " + std::to_string(arrays_.triangle_count) + " is above 4294967294");
     }
     const bool indexed = arrays_.indices.data != nullptr;
     if (!indexed && arrays_.vertex_count != 3 * arrays_.triangle_count) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT, "indices: NULL needs 3 vertices per triangle, but vertex_count is " +
-                                                        std::to_string(arrays_.vertex_count) + " and triangle_count " +
-                                                        std::to_string(arrays_.triangle_count));
+        throw Error(Status::ERROR_INVALID_ARGUMENT,
+                    "indices: NULL needs 3 vertices per triangle, but vertex_count is " +
+                        std::to_string(arrays_.vertex_count) + " and triangle_count " +
+                        std::to_string(arrays_.triangle_count));
     }
     if (!skip_invalid) {
         for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) {
@@ -94,12 +98,14 @@ void TriangleMesh::check(bool skip_invalid) {
     std::vector<bool> invalid(arrays_.triangle_count, false);
     for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
         for (int corner = 0; corner < 3; ++corner) {
-            const std::uint64_t index = indexed ? arrays_.indices.index(i, corner) : 3 * i + static_cast<std::uint64_t>(corner);
+            const std::uint64_t index =
+                indexed ? arrays_.indices.index(i, corner) : 3 * i + static_cast<std::uint64_t>(corner);
             if (index >= arrays_.vertex_count) {
                 if (!skip_invalid) {
                     throw Error(Status::ERROR_INDEX_OUT_OF_RANGE,
                                 "triangle " + std::to_string(i) + ": index " + std::to_string(index) +
-                                    " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) + " vertices");
+                                    " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) +
+                                    " vertices");
                 }
                 invalid[i] = true;
             } else if (skip_invalid && !is_usable(arrays_.vertices.vec3(index))) {

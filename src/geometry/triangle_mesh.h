@@ -13,7 +13,13 @@
 namespace raywise {
 
 // An element type of the caller's arrays.
-enum class Scalar { float32, float64, uint8, uint32, uint64 };
+enum class Scalar {
+    float32,
+    float64,
+    uint8,
+    uint32,
+    uint64
+};
 
 constexpr std::size_t size_of(Scalar scalar) {
     return scalar == Scalar::uint8 ? 1 : scalar == Scalar::float32 || scalar == Scalar::uint32 ? 4 : 8;
@@ -26,7 +32,7 @@ struct StridedArray {
     std::ptrdiff_t component_stride = 0;
     Scalar scalar = Scalar::float32;
 
-    double number(std::uint64_t element, int component = 0) const;    // float32 or float64
+    double number(std::uint64_t element, int component = 0) const;   // float32 or float64
     std::uint64_t index(std::uint64_t element, int component) const; // uint32 or uint64
     Vec3 vec3(std::uint64_t element) const;                          // float32 or float64
 };

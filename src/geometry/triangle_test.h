@@ -47,7 +47,9 @@ inline Sheared shear(const PreparedRay& ray, const Vec3& relative) {
 // Twice the area of the origin with p and q.
 inline double edge(const Sheared& p, const Sheared& q) { return p.x * q.y - p.y * q.x; }
 
-inline double largest_component(const Vec3& v) { return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z)); }
+inline double largest_component(const Vec3& v) {
+    return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));
+}
 
 } // namespace triangle_test_detail
 
@@ -68,7 +70,8 @@ inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, 
     // 2^-53 of the largest relative coordinate: 8 of them are more than enough. An edge multiplies two such coordinates, whose
     // magnitudes are below `reach`, and rounds three times.
     const double largest = std::max(std::max(largest_component(pa), largest_component(pb)), largest_component(pc));
-    const double reach = std::fabs(sa.x) + std::fabs(sa.y) + std::fabs(sb.x) + std::fabs(sb.y) + std::fabs(sc.x) + std::fabs(sc.y);
+    const double reach =
+        std::fabs(sa.x) + std::fabs(sa.y) + std::fabs(sb.x) + std::fabs(sb.y) + std::fabs(sc.x) + std::fabs(sc.y);
     const double shear_error = 0x1p-50 * largest;
     const double error = 1.01 * shear_error * (reach + 2.0 * shear_error) + 0x1p-51 * reach * reach;
 
@@ -89,7 +92,8 @@ inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, 
     // weights: its error is theirs times the triangle's extent in z, and has to stay below the margin that traversal leaves.
     const double weight_error = 3.0 * error;
     const double area = std::fabs(wa + wb + wc);
-    const bool weights_certain = weight_error * 0x1p30 <= area && weight_error * (z_high - z_low) * 0x1p40 <= area * largest;
+    const bool weights_certain =
+        weight_error * 0x1p30 <= area && weight_error * (z_high - z_low) * 0x1p40 <= area * largest;
     if (!in_range || !signs_certain || !weights_certain) {
         const AxisScale scale = AxisScale::of(glm::max(glm::abs(pa), glm::max(glm::abs(pb), glm::abs(pc))));
         wa = exact_determinant(ray.direction, ray.origin, b, c, scale);

@@ -64,7 +64,8 @@ public:
     }
     bool parse_error(std::size_t, const std::string&, const json::exception& error) {
         constexpr int number_overflow = 406;
-        throw Error(error.id == number_overflow ? Status::PROFILE_RANGE : Status::PROFILE_MALFORMED, plain_words(error.what()));
+        throw Error(error.id == number_overflow ? Status::PROFILE_RANGE : Status::PROFILE_MALFORMED,
+                    plain_words(error.what()));
     }
 
 private:
@@ -79,7 +80,8 @@ private:
         return *node;
     }
     bool open(JsonNode::Type type) {
-        if (open_.size() >= deepest) throw Error(Status::PROFILE_MALFORMED, "nested more than " + std::to_string(deepest) + " deep");
+        if (open_.size() >= deepest)
+            throw Error(Status::PROFILE_MALFORMED, "nested more than " + std::to_string(deepest) + " deep");
         open_.push_back(&add(type));
         return true;
     }
@@ -105,13 +107,21 @@ const JsonNode* JsonNode::find(const std::string& name) const {
 std::string JsonNode::excerpt() const {
     std::string words;
     switch (type) {
-    case Type::null: return "null";
-    case Type::boolean: return boolean ? "true" : "false";
-    case Type::whole: return std::to_string(whole);
-    case Type::number: return json_number(number);
-    case Type::object: return "an object";
-    case Type::list: return "a list";
-    case Type::text: words = json_text(text); break;
+        case Type::null:
+            return "null";
+        case Type::boolean:
+            return boolean ? "true" : "false";
+        case Type::whole:
+            return std::to_string(whole);
+        case Type::number:
+            return json_number(number);
+        case Type::object:
+            return "an object";
+        case Type::list:
+            return "a list";
+        case Type::text:
+            words = json_text(text);
+            break;
     }
     return words.size() > 60 ? words.substr(0, 57) + "..." : words;
 }
@@ -125,7 +135,9 @@ JsonNode parse_json(const std::string& text) {
     return root;
 }
 
-std::string json_text(const std::string& text) { return json(text).dump(-1, ' ', true, json::error_handler_t::replace); }
+std::string json_text(const std::string& text) {
+    return json(text).dump(-1, ' ', true, json::error_handler_t::replace);
+}
 
 std::string json_number(double number) { return std::isfinite(number) ? json(number).dump() : "null"; }
 

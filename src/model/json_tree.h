@@ -12,7 +12,15 @@
 namespace raywise {
 
 struct JsonNode {
-    enum class Type { null, boolean, whole, number, text, list, object };
+    enum class Type {
+        null,
+        boolean,
+        whole,
+        number,
+        text,
+        list,
+        object
+    };
 
     Type type = Type::null;
     bool boolean = false;

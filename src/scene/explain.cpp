@@ -2,9 +2,9 @@
 
 #include "model/json_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <algorithm>
 
 namespace raywise {
 namespace {
@@ -70,7 +70,8 @@ CandidateReport report_candidate(const Plan& plan, const Tracer& tracer, Structu
         const std::uint64_t rays = tracer.usage().rays.load(std::memory_order_relaxed);
         if (rays > 0) {
             report.figures.actual_ray_ns =
-                static_cast<double>(tracer.usage().batch_ns.load(std::memory_order_relaxed)) / static_cast<double>(rays);
+                static_cast<double>(tracer.usage().batch_ns.load(std::memory_order_relaxed)) /
+                static_cast<double>(rays);
         }
     } else {
         report.break_even_rays = break_even_rays(plan.candidate(plan.chosen).predicted, report.figures.predicted);
@@ -81,32 +82,37 @@ CandidateReport report_candidate(const Plan& plan, const Tracer& tracer, Structu
 std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& profile) {
     std::string text;
     text += "scene: " + grouped(tracer.primitives().count()) + " triangles, ";
-    text += plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
+    text +=
+        plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
     text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
-    text += format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
+    text +=
+        format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
     text += profile.status == Status::OK ? std::string("\n") : " (" + profile.reason + ")\n";
     if (plan.hapala) {
         text += format("Hapala: kd-tree predicted %s to build, %s a ray; critical number of rays %.3g: %s\n",
                        duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),
                        plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
     }
-    text += format("  %-14s %9s %9s %6s %9s %9s  %9s %9s  %s\n", "structure", "build", "per ray", "+/-", "bytes", "total", "build*",
-                   "per ray*", "");
+    text += format("  %-14s %9s %9s %6s %9s %9s  %9s %9s  %s\n", "structure", "build", "per ray", "+/-", "bytes",
+                   "total", "build*", "per ray*", "");
     for (const Structure structure : all_structures()) {
         const CandidateReport candidate = report_candidate(plan, tracer, structure);
         const PlannedCandidate& figures = candidate.figures;
-        text += format("%c %-14s %9s %9s %5.0f%% %9s %9s  %9s %9s  ", candidate.chosen ? '>' : ' ', name_of(structure),
-                       duration(figures.predicted.build_ns).c_str(), duration(figures.predicted.ray_ns).c_str(),
-                       100.0 * figures.predicted.error,
-                       size(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes).c_str(),
-                       duration(candidate.predicted_total_ns).c_str(), duration(figures.actual_build_ns).c_str(),
-                       duration(figures.actual_ray_ns).c_str());
+        text +=
+            format("%c %-14s %9s %9s %5.0f%% %9s %9s  %9s %9s  ", candidate.chosen ? '>' : ' ', name_of(structure),
+                   duration(figures.predicted.build_ns).c_str(), duration(figures.predicted.ray_ns).c_str(),
+                   100.0 * figures.predicted.error,
+                   size(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes)
+                       .c_str(),
+                   duration(candidate.predicted_total_ns).c_str(), duration(figures.actual_build_ns).c_str(),
+                   duration(figures.actual_ray_ns).c_str());
         text += remark(candidate) + "\n";
     }
     const std::uint64_t rays = tracer.usage().rays.load(std::memory_order_relaxed);
-    text += "* actual; per ray: wall time of " + (rays > 0 ? grouped(rays) + " rays in batches so far" : std::string("the sample")) +
-            "; deciding took " + duration(plan.decide_ns) + "\n";
+    text += "* actual; per ray: wall time of " +
+            (rays > 0 ? grouped(rays) + " rays in batches so far" : std::string("the sample")) + "; deciding took " +
+            duration(plan.decide_ns) + "\n";
     return text;
 }
 

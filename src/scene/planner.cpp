@@ -12,7 +12,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double ns_since(Clock::time_point start) { return std::chrono::duration<double, std::nano>(Clock::now() - start).count(); }
+double ns_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
 
 // One structure's sample is timed for no longer than this: on a large mesh a linear scan would take minutes for it.
 constexpr double sample_time_limit_ns = 50e6;
@@ -84,8 +86,11 @@ private:
         }
         const Clock::time_point start = Clock::now();
         const MachineConstants& constants = request_.profile->constants;
-        const BuildInput input{*request_.primitives, {constants.primitive_test_ns, constants.node_step_ns}, request_.view,
-                               parallel_, progress_};
+        const BuildInput input{*request_.primitives,
+                               {constants.primitive_test_ns, constants.node_step_ns},
+                               request_.view,
+                               parallel_,
+                               progress_};
         std::shared_ptr<const Accel> accel = build(structure, input);
         candidate.actual_build_ns = ns_since(start);
         candidate.actual_bytes = accel->bytes();
@@ -105,11 +110,13 @@ private:
         double smallest = std::numeric_limits<double>::infinity();
         for (const PlannedCandidate& candidate : plan_.candidates) {
             if (!candidate.applicable || (request_.forced && candidate.structure != *request_.forced)) continue;
-            const double bytes = candidate.actual_bytes != 0 ? static_cast<double>(candidate.actual_bytes) : candidate.predicted.bytes;
+            const double bytes =
+                candidate.actual_bytes != 0 ? static_cast<double>(candidate.actual_bytes) : candidate.predicted.bytes;
             smallest = std::min(smallest, bytes);
         }
         throw Error(Status::ERROR_MEMORY_LIMIT,
-                    (request_.forced ? std::string(name_of(*request_.forced)) + " needs about " : "the smallest candidate needs about ") +
+                    (request_.forced ? std::string(name_of(*request_.forced)) + " needs about "
+                                     : "the smallest candidate needs about ") +
                         std::to_string(static_cast<std::uint64_t>(smallest)) + " bytes, the memory limit is " +
                         std::to_string(request_.memory_limit));
     }
@@ -151,9 +158,11 @@ private:
     // Mean time per sample ray; NaN when there is nothing to time.
     double time_sample(const Accel& accel) {
         if (sample_.empty()) {
-            sample_ = request_.sample.empty() ? make_sample_rays(*request_.primitives, request_.workload.kind, request_.view)
-                                              : request_.sample;
-            sample_.erase(std::remove_if(sample_.begin(), sample_.end(), [](const Ray& ray) { return !PreparedRay::is_traceable(ray); }),
+            sample_ = request_.sample.empty()
+                          ? make_sample_rays(*request_.primitives, request_.workload.kind, request_.view)
+                          : request_.sample;
+            sample_.erase(std::remove_if(sample_.begin(), sample_.end(),
+                                         [](const Ray& ray) { return !PreparedRay::is_traceable(ray); }),
                           sample_.end());
         }
         const bool any = request_.workload.kind == RayKind::shadow;
@@ -192,7 +201,8 @@ private:
 
     void take_by_hapala() {
         for (PlannedCandidate& candidate : plan_.candidates) {
-            candidate.applicable = candidate.structure == Structure::uniform_grid || candidate.structure == Structure::kd_tree;
+            candidate.applicable =
+                candidate.structure == Structure::uniform_grid || candidate.structure == Structure::kd_tree;
         }
         std::shared_ptr<const Accel> grid;
         if (!plan_.candidate(Structure::uniform_grid).over_limit) measure_candidate(Structure::uniform_grid, grid);
@@ -200,8 +210,8 @@ private:
         PlannedCandidate& tree_candidate = plan_.candidate(Structure::kd_tree);
         if (grid && grid_candidate.measured) {
             plan_.hapala = hapala_rule(request_.profile->constants.hapala,
-                                       static_cast<double>(request_.primitives->hittable_count()), request_.workload.rays,
-                                       grid_candidate.actual_ray_ns);
+                                       static_cast<double>(request_.primitives->hittable_count()),
+                                       request_.workload.rays, grid_candidate.actual_ray_ns);
             tree_candidate.predicted.build_ns = plan_.hapala->tree_build_ns;
             tree_candidate.predicted.ray_ns = plan_.hapala->tree_ray_ns;
         }
@@ -210,7 +220,8 @@ private:
             keep(Structure::uniform_grid, std::move(grid));
             return;
         }
-        std::shared_ptr<const Accel> tree = tree_candidate.over_limit ? nullptr : build_candidate(Structure::kd_tree, "building");
+        std::shared_ptr<const Accel> tree =
+            tree_candidate.over_limit ? nullptr : build_candidate(Structure::kd_tree, "building");
         if (tree) {
             keep(Structure::kd_tree, std::move(tree));
         } else if (grid) {
@@ -233,7 +244,8 @@ private:
         });
         std::vector<std::pair<Structure, std::shared_ptr<const Accel>>> built;
         for (const Structure structure : order) {
-            const bool out_of_time = request_.time_limit_seconds > 0.0 && ns_since(start) > request_.time_limit_seconds * 1e9;
+            const bool out_of_time =
+                request_.time_limit_seconds > 0.0 && ns_since(start) > request_.time_limit_seconds * 1e9;
             if (out_of_time && !built.empty()) break;
             std::shared_ptr<const Accel> accel;
             if (measure_candidate(structure, accel)) built.emplace_back(structure, std::move(accel));
@@ -241,7 +253,8 @@ private:
         // Among those that were measured only: a prediction must not beat a measurement.
         std::vector<Candidate> candidates = eligible_candidates();
         for (Candidate& candidate : candidates) {
-            candidate.eligible = std::any_of(built.begin(), built.end(), [&](const auto& b) { return b.first == candidate.structure; });
+            candidate.eligible =
+                std::any_of(built.begin(), built.end(), [&](const auto& b) { return b.first == candidate.structure; });
         }
         const std::optional<std::size_t> best = decide(candidates, request_.workload.rays);
         if (!best) fail_over_limit();

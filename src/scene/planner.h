@@ -18,8 +18,15 @@
 namespace raywise {
 
 // Values as RW_EFFORT_* and RW_RULE_* in raywise.h.
-enum class Effort { estimate = 0, probe = 1, measure = 2 };
-enum class Rule { smallest_total = 0, hapala = 1 };
+enum class Effort {
+    estimate = 0,
+    probe = 1,
+    measure = 2
+};
+enum class Rule {
+    smallest_total = 0,
+    hapala = 1
+};
 
 struct PlanRequest {
     std::shared_ptr<const Primitives> primitives;
@@ -28,9 +35,9 @@ struct PlanRequest {
     std::vector<Ray> sample; // of the caller's rays; empty: made up
     Effort effort = Effort::estimate;
     Rule rule = Rule::smallest_total;
-    double time_limit_seconds = 0.0;     // of Effort::measure; 0: none
+    double time_limit_seconds = 0.0; // of Effort::measure; 0: none
     std::optional<Structure> forced;
-    std::uint64_t memory_limit = 0;      // bytes; 0: none
+    std::uint64_t memory_limit = 0; // bytes; 0: none
     std::optional<ViewFrame> view;
     // A structure that is there already and costs nothing to build: the scene's, when a view is planned.
     std::optional<Structure> ready;
@@ -62,7 +69,9 @@ struct Plan {
     double build_ns = 0.0;  // of the chosen structure
     std::uint64_t bytes = 0;
 
-    const PlannedCandidate& candidate(Structure structure) const { return candidates[static_cast<std::size_t>(structure)]; }
+    const PlannedCandidate& candidate(Structure structure) const {
+        return candidates[static_cast<std::size_t>(structure)];
+    }
     PlannedCandidate& candidate(Structure structure) { return candidates[static_cast<std::size_t>(structure)]; }
 };
 

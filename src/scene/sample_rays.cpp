@@ -65,7 +65,8 @@ std::vector<Ray> make_sample_rays(const Primitives& primitives, RayKind kind, co
         Ray ray;
         if (from_direction) {
             ray.direction = view->direction;
-            ray.origin = on_surface(primitives, random).position - view->direction * (2.0 * radius / glm::length(view->direction));
+            ray.origin = on_surface(primitives, random).position -
+                         view->direction * (2.0 * radius / glm::length(view->direction));
         } else if (kind == RayKind::camera) {
             ray.origin = eye;
             ray.direction = on_surface(primitives, random).position - eye;

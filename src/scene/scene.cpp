@@ -6,7 +6,8 @@
 namespace raywise {
 
 void Scene::require_uncommitted() const {
-    if (is_committed()) throw Error(Status::ERROR_ALREADY_COMMITTED, "scene: it is committed and cannot be changed any more");
+    if (is_committed())
+        throw Error(Status::ERROR_ALREADY_COMMITTED, "scene: it is committed and cannot be changed any more");
 }
 
 void Scene::require_committed() const {

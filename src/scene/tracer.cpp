@@ -16,7 +16,8 @@ bool Tracer::is_traceable(const Ray& ray) const {
 
 Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit) const {
     const PrimitiveId id = primitives_->locate(hit.primitive);
-    return {ray.to_caller(hit.t), hit.u, hit.v, primitives_->normal(hit.primitive), invalid_id, id.geometry, id.primitive};
+    return {ray.to_caller(hit.t), hit.u,       hit.v,       primitives_->normal(hit.primitive),
+            invalid_id,           id.geometry, id.primitive};
 }
 
 Hit Tracer::closest(const Ray& ray) const {

@@ -176,7 +176,8 @@ TEST(Bvh, DepthIsBounded) {
     double scale = 1e30;
     for (int i = 0; i < 230; ++i, scale *= 0.5) {
         for (int copy = 0; copy < 20; ++copy) {
-            triangles.push_back({scale * Vec3(1.0, 0.0, 0.1), scale * Vec3(1.0, 0.1, 0.0), scale * Vec3(1.1, 0.0, 0.0)});
+            triangles.push_back(
+                {scale * Vec3(1.0, 0.0, 0.1), scale * Vec3(1.0, 0.1, 0.0), scale * Vec3(1.1, 0.0, 0.0)});
         }
     }
     Scene scene(triangles);

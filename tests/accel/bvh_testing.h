@@ -75,8 +75,8 @@ inline bool same_hit(const PrimitiveHit& a, const PrimitiveHit& b) {
 
 inline std::string text_of(const Ray& ray) {
     char text[400];
-    std::snprintf(text, sizeof text, "origin %a %a %a direction %a %a %a t %a ... %a", ray.origin.x, ray.origin.y, ray.origin.z,
-                  ray.direction.x, ray.direction.y, ray.direction.z, ray.tmin, ray.tmax);
+    std::snprintf(text, sizeof text, "origin %a %a %a direction %a %a %a t %a ... %a", ray.origin.x, ray.origin.y,
+                  ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.tmin, ray.tmax);
     return text;
 }
 
@@ -88,8 +88,9 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     const LinearScan scan(scene.input());
     const PrimitiveHit expected = scan.closest(prepared);
     const PrimitiveHit found = structure.closest(prepared);
-    EXPECT_TRUE(same_hit(expected, found)) << "closest: expected " << expected.primitive << " at " << expected.t << ", found "
-                                           << found.primitive << " at " << found.t << "; " << text_of(ray);
+    EXPECT_TRUE(same_hit(expected, found))
+        << "closest: expected " << expected.primitive << " at " << expected.t << ", found " << found.primitive << " at "
+        << found.t << "; " << text_of(ray);
     EXPECT_EQ(scan.any(prepared), structure.any(prepared)) << "any; " << text_of(ray);
     std::vector<PrimitiveHit> all_expected;
     std::vector<PrimitiveHit> all_found;
@@ -97,7 +98,8 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     structure.all(prepared, all_found);
     bool same = all_expected.size() == all_found.size();
     for (std::size_t i = 0; same && i < all_expected.size(); ++i) same = same_hit(all_expected[i], all_found[i]);
-    EXPECT_TRUE(same) << "all: expected " << all_expected.size() << " hits, found " << all_found.size() << "; " << text_of(ray);
+    EXPECT_TRUE(same) << "all: expected " << all_expected.size() << " hits, found " << all_found.size() << "; "
+                      << text_of(ray);
     return expected.is_hit();
 }
 
@@ -132,7 +134,8 @@ bool expect_same_with_intervals(Scene& scene, const Structure& structure, Ray ra
 // ---- Scenes.
 
 // Triangles of about `size` in the unit cube, around `center` and scaled about the origin before they are moved.
-inline Triangles soup(std::size_t count, double size, unsigned seed, double scale = 1.0, const Vec3& center = Vec3(0.0)) {
+inline Triangles soup(std::size_t count, double size, unsigned seed, double scale = 1.0,
+                      const Vec3& center = Vec3(0.0)) {
     Random random(seed);
     Triangles triangles(count);
     for (Corners& corners : triangles) {
@@ -197,7 +200,8 @@ inline Triangles ball(int n, double radius, unsigned seed = 1) {
             const double theta = pi * i / n;
             const double phi = pi * j / n;
             const double r = i == 0 || i == n ? radius : radius * random.uniform(0.95, 1.0);
-            points.push_back(r * Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+            points.push_back(r *
+                             Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
         }
     }
     const auto at = [&](int i, int j) { return points[static_cast<std::size_t>(i * 2 * n + j % (2 * n))]; };
@@ -213,20 +217,25 @@ inline Triangles ball(int n, double radius, unsigned seed = 1) {
 
 // ---- Rays.
 
-inline Ray ray_between(const Vec3& from, const Vec3& to, double tmax = infinity) { return {from, 0.0, to - from, tmax}; }
+inline Ray ray_between(const Vec3& from, const Vec3& to, double tmax = infinity) {
+    return {from, 0.0, to - from, tmax};
+}
 
 // A point the scene is made of: a corner, on an edge, within a triangle; or within its bounds.
 inline Vec3 interesting_point(const Triangles& triangles, const Box& bounds, Random& random) {
     const Corners& c = triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(triangles.size()) - 1))];
     switch (random.integer(0, 3)) {
-    case 0: return c[0];
-    case 1: return 0.5 * c[0] + 0.5 * c[1];
-    case 2: return 0.25 * c[0] + 0.25 * c[1] + 0.5 * c[2];
-    default: {
-        Vec3 p;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(bounds.lower[axis], bounds.upper[axis]);
-        return p;
-    }
+        case 0:
+            return c[0];
+        case 1:
+            return 0.5 * c[0] + 0.5 * c[1];
+        case 2:
+            return 0.25 * c[0] + 0.25 * c[1] + 0.5 * c[2];
+        default: {
+            Vec3 p;
+            for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(bounds.lower[axis], bounds.upper[axis]);
+            return p;
+        }
     }
 }
 
@@ -235,18 +244,23 @@ inline Ray any_ray(const Triangles& triangles, const Box& bounds, Random& random
     const double size = max_component(bounds.size());
     const Vec3 target = interesting_point(triangles, bounds, random);
     switch (random.integer(0, 5)) {
-    case 0: return ray_between(interesting_point(triangles, bounds, random), target);
-    case 1: {
-        Vec3 direction(0.0);
-        const int axis = random.integer(0, 2);
-        direction[axis] = random.integer(0, 1) == 0 ? 1.0 : -1.0;
-        if (random.integer(0, 1) == 0) direction[(axis + 1) % 3] = -0.0;
-        return {target - 3.0 * size * direction, 0.0, direction, infinity};
-    }
-    case 2: return ray_between(target + 1e12 * size * random.direction(), target);
-    case 3: return {target, 0.0, random.direction(), infinity};
-    case 4: return {target, -infinity, 1e-3 * random.direction(), infinity};
-    default: return ray_between(bounds.center() + size * random.direction(), target);
+        case 0:
+            return ray_between(interesting_point(triangles, bounds, random), target);
+        case 1: {
+            Vec3 direction(0.0);
+            const int axis = random.integer(0, 2);
+            direction[axis] = random.integer(0, 1) == 0 ? 1.0 : -1.0;
+            if (random.integer(0, 1) == 0) direction[(axis + 1) % 3] = -0.0;
+            return {target - 3.0 * size * direction, 0.0, direction, infinity};
+        }
+        case 2:
+            return ray_between(target + 1e12 * size * random.direction(), target);
+        case 3:
+            return {target, 0.0, random.direction(), infinity};
+        case 4:
+            return {target, -infinity, 1e-3 * random.direction(), infinity};
+        default:
+            return ray_between(bounds.center() + size * random.direction(), target);
     }
 }
 

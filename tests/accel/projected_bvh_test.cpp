@@ -27,15 +27,17 @@ Ray view_ray(const ViewFrame& view, const Vec3& point, double size, Random& rand
         }
     } else {
         switch (random.integer(0, 3)) {
-        case 0: // camera
-        case 1: ray = ray_between(view.origin, point); break;
-        case 2: // shadow ray from the point to the light
-            ray = ray_between(point, view.origin, 1.0);
-            break;
-        default: // the same with a unit direction, and from a little beside the surface
-            ray = ray_between(point + 1e-3 * random.direction() * size, view.origin);
-            ray.tmax = std::sqrt(glm::dot(ray.direction, ray.direction));
-            if (ray.tmax > 0.0) ray.direction /= ray.tmax;
+            case 0: // camera
+            case 1:
+                ray = ray_between(view.origin, point);
+                break;
+            case 2: // shadow ray from the point to the light
+                ray = ray_between(point, view.origin, 1.0);
+                break;
+            default: // the same with a unit direction, and from a little beside the surface
+                ray = ray_between(point + 1e-3 * random.direction() * size, view.origin);
+                ray.tmax = std::sqrt(glm::dot(ray.direction, ray.direction));
+                if (ray.tmax > 0.0) ray.direction /= ray.tmax;
         }
     }
     if (random.integer(0, 3) == 0) {
@@ -62,7 +64,8 @@ Counts expect_same_answers(const Triangles& triangles, const ViewFrame& view, in
         for (int i = 0; i < rays && !testing::Test::HasFailure(); ++i) {
             const bool unrelated = i % 4 == 3;
             const Ray ray = unrelated ? any_ray(triangles, bounds, random)
-                                      : view_ray(view, interesting_point(triangles, bounds, random), max_component(bounds.size()), random);
+                                      : view_ray(view, interesting_point(triangles, bounds, random),
+                                                 max_component(bounds.size()), random);
             const bool hit = i % 4 == 0 ? expect_same_with_intervals(scene, bvh, ray) : expect_same(scene, bvh, ray);
             if (unrelated || !PreparedRay::is_traceable(ray)) continue;
             ++counts.rays;
@@ -80,10 +83,12 @@ std::vector<ViewFrame> views_of(const Triangles& triangles, const Box& bounds, u
     const double size = max_component(bounds.size());
     const Corners& some = triangles[triangles.size() / 2];
     std::vector<ViewFrame> views;
-    for (const Vec3& eye : {center, some[0], 0.5 * some[0] + 0.5 * some[1], (1.0 / 3.0) * some[0] + (1.0 / 3.0) * some[1] + (1.0 / 3.0) * some[2],
-                            some[0] + 1e-7 * size * random.direction(), bounds.lower, center + 2.0 * size * random.direction(),
-                            center + 1e4 * size * random.direction(), center + 1e9 * size * random.direction(),
-                            through_float(center + size * random.direction())}) {
+    for (const Vec3& eye :
+         {center, some[0], 0.5 * some[0] + 0.5 * some[1],
+          (1.0 / 3.0) * some[0] + (1.0 / 3.0) * some[1] + (1.0 / 3.0) * some[2],
+          some[0] + 1e-7 * size * random.direction(), bounds.lower, center + 2.0 * size * random.direction(),
+          center + 1e4 * size * random.direction(), center + 1e9 * size * random.direction(),
+          through_float(center + size * random.direction())}) {
         views.push_back(around(eye));
         views.push_back(towards(eye, center + 0.1 * size * random.direction(), 0.5));
         views.push_back(towards(eye, center + size * random.direction(), 1.5));
@@ -151,7 +156,8 @@ TEST(ProjectedBvh, ViewsThatCannotBeUsed) {
     Random random(4);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const ViewFrame& view : {around(Vec3(nan)), around(Vec3(1e300)), along(Vec3(0.0)), along(Vec3(infinity)),
-                                  towards(Vec3(0.0), Vec3(1.0), nan), towards(Vec3(0.0), Vec3(1.0), -1.0), towards(Vec3(0.0), Vec3(1.0), 7.0)}) {
+                                  towards(Vec3(0.0), Vec3(1.0), nan), towards(Vec3(0.0), Vec3(1.0), -1.0),
+                                  towards(Vec3(0.0), Vec3(1.0), 7.0)}) {
         const ProjectedBvh bvh(scene.input(view));
         for (int i = 0; i < 50; ++i) expect_same(scene, bvh, any_ray(triangles, scene.bounds(), random));
         for (int i = 0; i < 50; ++i) expect_same(scene, bvh, {Vec3(0.0), 0.0, random.direction(), infinity});
@@ -186,7 +192,8 @@ TEST(ProjectedBvh, FloorBelowTheLight) {
     add_quad(triangles, Vec3(-100.0, -5.0, -100.0), Vec3(200.0, 0.0, 0.0), Vec3(0.0, 0.0, 200.0));
     const Triangles things = soup(300, 0.3, 13, 4.0, Vec3(0.0, -2.0, 0.0));
     triangles.insert(triangles.end(), things.begin(), things.end());
-    for (const Vec3& light : {Vec3(0.0), Vec3(0.0, 3.0, 0.0), Vec3(0.0, -5.0, 0.0), Vec3(50.0, -4.999, 1.0), Vec3(99.0, 5.0, 99.0)}) {
+    for (const Vec3& light :
+         {Vec3(0.0), Vec3(0.0, 3.0, 0.0), Vec3(0.0, -5.0, 0.0), Vec3(50.0, -4.999, 1.0), Vec3(99.0, 5.0, 99.0)}) {
         expect_same_answers(triangles, around(light), 300, 14);
         expect_same_answers(triangles, towards(light, Vec3(0.0, -5.0, 0.0), 1.2), 300, 15);
     }
@@ -225,7 +232,8 @@ TEST(ProjectedBvh, FineDetailCloseToTheLight) {
             const double distance = std::ldexp(random.uniform(0.5, 1.0), -exponent);
             const Vec3 middle = light + distance * random.direction();
             const double size = distance * std::ldexp(1.0, -random.integer(4, 10));
-            triangles.push_back({middle + random.in_cube(size), middle + random.in_cube(size), middle + random.in_cube(size)});
+            triangles.push_back(
+                {middle + random.in_cube(size), middle + random.in_cube(size), middle + random.in_cube(size)});
         }
     }
     Scene scene(triangles);
@@ -234,7 +242,8 @@ TEST(ProjectedBvh, FineDetailCloseToTheLight) {
     int projected = 0;
     const int rays = 6000;
     for (int i = 0; i < rays && !testing::Test::HasFailure(); ++i) {
-        const Corners& c = triangles[static_cast<std::size_t>(random.integer(20, static_cast<int>(triangles.size()) - 1))];
+        const Corners& c =
+            triangles[static_cast<std::size_t>(random.integer(20, static_cast<int>(triangles.size()) - 1))];
         const Vec3 target = 0.3 * c[0] + 0.3 * c[1] + 0.4 * c[2];
         const Vec3 away = target - light;
         const Vec3 origin = through_float(light + random.uniform(0.5, 3.0) / max_component(glm::abs(away)) * away);
@@ -262,7 +271,8 @@ TEST(ProjectedBvh, IdenticalTriangles) {
 }
 
 TEST(ProjectedBvh, AllScales) {
-    for (const double scale : {1e-30, 1e-8, 1e8, 1e30, 1e38}) expect_same_answers_in_all_views(soup(100, 0.3, 21, scale), 20, 21);
+    for (const double scale : {1e-30, 1e-8, 1e8, 1e30, 1e38})
+        expect_same_answers_in_all_views(soup(100, 0.3, 21, scale), 20, 21);
 }
 
 TEST(ProjectedBvh, FarFromTheOriginOfCoordinates) {
@@ -284,7 +294,9 @@ TEST(ProjectedBvh, ViewRaysAreProjected) {
     EXPECT_EQ(cube.plane_count(), 6u);
     EXPECT_EQ(camera.plane_count(), 1u);
     EXPECT_EQ(parallel.plane_count(), 1u);
-    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) { return bvh.uses_projection(PreparedRay(ray, scene.bounds())); };
+    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) {
+        return bvh.uses_projection(PreparedRay(ray, scene.bounds()));
+    };
     for (int i = 0; i < 2000; ++i) {
         const Vec3 p = random.in_cube();
         EXPECT_TRUE(projects(cube, ray_between(eye, p)));

@@ -85,7 +85,9 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
     for (int round = 0; round < 200; ++round) {
         const Vec3 eye = random.in_cube();
         const bool cube = round % 2 == 0;
-        const ViewPlanes view({ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)}, unit_bounds);
+        const ViewPlanes view(
+            {ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)},
+            unit_bounds);
         for (int i = 0; i < 100; ++i) {
             const double size = std::ldexp(1.0, -random.integer(0, 20));
             const Vec3 middle = random.in_cube(0.5);
@@ -155,7 +157,8 @@ TEST(Footprint, AFloorUnderThePointHasAHorizon) {
     ASSERT_FALSE(footprint.empty());
     EXPECT_GE(footprint.near, 0.4);
     int finite = 0;
-    for (int i = 0; i < 2; ++i) finite += (std::isfinite(footprint.lower[i]) ? 1 : 0) + (std::isfinite(footprint.upper[i]) ? 1 : 0);
+    for (int i = 0; i < 2; ++i)
+        finite += (std::isfinite(footprint.lower[i]) ? 1 : 0) + (std::isfinite(footprint.upper[i]) ? 1 : 0);
     EXPECT_EQ(finite, 1);
 }
 
@@ -222,13 +225,13 @@ TEST(ProjectedRay, OnlyRaysOfTheView) {
     EXPECT_TRUE(takes(prepared(eye, ahead)));
     EXPECT_TRUE(takes(prepared(eye, ahead, 0.5, 7.0)));
     EXPECT_TRUE(takes(prepared(eye + 5.0 * ahead, -ahead, 0.0, 5.0)));
-    EXPECT_FALSE(takes(prepared(eye, -ahead)));                        // away
-    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, -1.0))));          // past the plane
-    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, 0.0))));           // along it
-    EXPECT_FALSE(takes(prepared(eye, ahead, -1.0)));                   // from behind the eye
+    EXPECT_FALSE(takes(prepared(eye, -ahead)));               // away
+    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, -1.0)))); // past the plane
+    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, 0.0))));  // along it
+    EXPECT_FALSE(takes(prepared(eye, ahead, -1.0)));          // from behind the eye
     EXPECT_FALSE(takes(prepared(eye, ahead, -infinity)));
-    EXPECT_FALSE(takes(prepared(eye + 5.0 * ahead, -ahead)));          // beyond the eye
-    EXPECT_FALSE(takes(prepared(eye + Vec3(0.01, 0.0, 0.0), ahead)));  // beside it
+    EXPECT_FALSE(takes(prepared(eye + 5.0 * ahead, -ahead)));         // beyond the eye
+    EXPECT_FALSE(takes(prepared(eye + Vec3(0.01, 0.0, 0.0), ahead))); // beside it
     const ViewPlanes sun({ViewFrame::Kind::direction, Vec3(0.0), Vec3(0.0, 0.0, -1.0), 0.0}, unit_bounds);
     ProjectedRay projected;
     EXPECT_TRUE(sun.planes()[0].project(prepared(eye, Vec3(0.0, 0.0, 1.0), -infinity), projected));

@@ -39,7 +39,8 @@ TEST(Rounding, EnclosesEveryDoubleByTheNearestFloats) {
 }
 
 TEST(Rounding, KeepsFloatsAsTheyAre) {
-    for (const float x : {0.0f, 1.0f, -3.5f, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()}) {
+    for (const float x :
+         {0.0f, 1.0f, -3.5f, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()}) {
         EXPECT_EQ(round_down(static_cast<double>(x)), x);
         EXPECT_EQ(round_up(static_cast<double>(x)), x);
     }

@@ -31,7 +31,10 @@ TEST(Parallel, BlocksCoverTheRangeWithoutOverlap) {
 
 TEST(Parallel, ThrowsWhatATaskThrew) {
     for (const unsigned threads : {1u, 2u}) {
-        EXPECT_THROW(Parallel(threads).for_each(100, [](std::uint64_t i) { if (i == 42) throw std::runtime_error("42"); }),
+        EXPECT_THROW(Parallel(threads).for_each(100,
+                                                [](std::uint64_t i) {
+                                                    if (i == 42) throw std::runtime_error("42");
+                                                }),
                      std::runtime_error);
     }
 }
@@ -60,13 +63,25 @@ Status status_of_host(const Parallel::Host& host) {
 TEST(Parallel, NoticesAHostLoopThatLeavesOutRepeatsOrOverruns) {
     using Task = Parallel::Task;
     EXPECT_EQ(status_of_host([](std::uint64_t, const Task&) {}), Status::ERROR_HOST_PARALLEL);
-    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) { for (std::uint64_t i = 1; i < n; ++i) task(i); }),
+    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) {
+                  for (std::uint64_t i = 1; i < n; ++i) task(i);
+              }),
               Status::ERROR_HOST_PARALLEL);
-    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) { for (std::uint64_t i = 0; i < n; ++i) { task(i); task(0); } }),
+    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) {
+                  for (std::uint64_t i = 0; i < n; ++i) {
+                      task(i);
+                      task(0);
+                  }
+              }),
               Status::ERROR_HOST_PARALLEL);
-    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) { for (std::uint64_t i = 0; i <= n; ++i) task(i); }),
+    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) {
+                  for (std::uint64_t i = 0; i <= n; ++i) task(i);
+              }),
               Status::ERROR_HOST_PARALLEL);
-    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) { for (std::uint64_t i = 0; i < n; ++i) task(i); }), Status::OK);
+    EXPECT_EQ(status_of_host([](std::uint64_t n, const Task& task) {
+                  for (std::uint64_t i = 0; i < n; ++i) task(i);
+              }),
+              Status::OK);
 }
 
 } // namespace

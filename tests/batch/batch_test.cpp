@@ -30,7 +30,8 @@ HitArrays outputs(std::vector<Record>& records) {
 
 RayArrays inputs(const std::vector<Ray>& rays) {
     const auto field = [&](auto Ray::*member) {
-        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8, Scalar::float64};
+        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8,
+                            Scalar::float64};
     };
     return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax)};
 }
@@ -55,7 +56,8 @@ TEST(Batch, GivesTheBitsOfSingleRaysOnAnyNumberOfThreads) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Hit hit = scene()->tracer().closest(rays[i]);
             const Record& r = records[i];
-            const Hit got{r.t, r.uv[0], r.uv[1], {r.normal[0], r.normal[1], r.normal[2]}, r.instance, r.geometry, r.primitive};
+            const Hit got{r.t,        r.uv[0],    r.uv[1],    {r.normal[0], r.normal[1], r.normal[2]},
+                          r.instance, r.geometry, r.primitive};
             ASSERT_TRUE(same_bits(hit, got)) << i;
         }
     }
@@ -65,7 +67,8 @@ TEST(Batch, WritesNothingBeyondItsElements) {
     const std::vector<Ray> rays = make_chords(100);
     std::vector<Record> records(102, Record{-7, {-7, -7}, {-7, -7, -7}, 7, 7, 7, 7});
     HitArrays out = outputs(records);
-    for (OutputArray* field : {&out.t, &out.uv, &out.normal, &out.instance, &out.geometry, &out.primitive}) field->data += sizeof(Record);
+    for (OutputArray* field : {&out.t, &out.uv, &out.normal, &out.instance, &out.geometry, &out.primitive})
+        field->data += sizeof(Record);
     intersect_batch(scene()->tracer(), inputs(rays), out, Parallel(2));
     for (const Record& r : {records.front(), records.back()}) {
         EXPECT_EQ(r.t, -7);
@@ -85,7 +88,8 @@ TEST(Batch, ConvertsToTheOutputsTypes) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit hit = scene()->tracer().closest(rays[i]);
         EXPECT_EQ(t[i], static_cast<float>(hit.t));
-        EXPECT_EQ(primitive[i], hit.primitive == invalid_id ? std::numeric_limits<std::uint64_t>::max() : hit.primitive);
+        EXPECT_EQ(primitive[i],
+                  hit.primitive == invalid_id ? std::numeric_limits<std::uint64_t>::max() : hit.primitive);
     }
 }
 

@@ -13,8 +13,9 @@ namespace {
 using namespace testing;
 
 std::shared_ptr<Scene> scene_for(std::uint64_t rays) {
-    return make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()),
-                      [&](Scene& s) { s.set_expected({rays, RayKind::random}, {}); });
+    return make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()), [&](Scene& s) {
+        s.set_expected({rays, RayKind::random}, {});
+    });
 }
 
 TEST(Explain, NamesEveryCandidateOnceAndFitsTheTerminal) {
@@ -25,7 +26,8 @@ TEST(Explain, NamesEveryCandidateOnceAndFitsTheTerminal) {
     for (std::string line; std::getline(lines, line);) {
         EXPECT_LE(line.size(), 110u) << line;
         for (const Structure structure : all_structures()) {
-            if (line.substr(2, std::string(name_of(structure)).size() + 1) == std::string(name_of(structure)) + " ") ++seen[structure];
+            if (line.substr(2, std::string(name_of(structure)).size() + 1) == std::string(name_of(structure)) + " ")
+                ++seen[structure];
         }
         chosen += line.rfind("> ", 0) == 0 ? 1 : 0;
     }
@@ -56,7 +58,8 @@ TEST(Explain, TellsTheBreakEvenOfTheOthers) {
             EXPECT_TRUE(std::isnan(report.break_even_rays));
         } else if (std::isfinite(report.break_even_rays) && report.break_even_rays > 1.0) {
             const double rays = report.break_even_rays * 1.01;
-            EXPECT_LT(plan.candidate(structure).predicted.total_ns(rays), plan.candidate(plan.chosen).predicted.total_ns(rays));
+            EXPECT_LT(plan.candidate(structure).predicted.total_ns(rays),
+                      plan.candidate(plan.chosen).predicted.total_ns(rays));
         }
     }
 }

@@ -33,7 +33,9 @@ std::shared_ptr<const Profile> three_steps() {
 }
 
 Structure chosen_for(std::optional<std::uint64_t> rays) {
-    const auto scene = make_scene(make_soup(100), three_steps(), [&](Scene& s) { s.set_expected({rays, RayKind::random}, {}); });
+    const auto scene = make_scene(make_soup(100), three_steps(), [&](Scene& s) {
+        s.set_expected({rays, RayKind::random}, {});
+    });
     return scene->plan().chosen;
 }
 
@@ -56,11 +58,15 @@ TEST(Planner, GivesTheSameAnswersWhateverIsChosen) {
     std::exponential_distribution<double> cost(1e-4);
     for (int round = 0; round < 20; ++round) {
         const auto profile = make_profile([&](MachineConstants& constants) {
-            for (const Structure structure : all_structures()) set_costs(constants, structure, cost(random), cost(random));
+            for (const Structure structure : all_structures())
+                set_costs(constants, structure, cost(random), cost(random));
         });
-        const auto scene = make_scene(soup, profile, [&](Scene& s) { s.set_expected({1u + random() % 1000u, RayKind::any}, {}); });
+        const auto scene = make_scene(soup, profile, [&](Scene& s) {
+            s.set_expected({1u + random() % 1000u, RayKind::any}, {});
+        });
         for (const Ray& ray : rays) {
-            ASSERT_TRUE(same_bits(scene->tracer().closest(ray), judge->tracer().closest(ray))) << name_of(scene->plan().chosen);
+            ASSERT_TRUE(same_bits(scene->tracer().closest(ray), judge->tracer().closest(ray)))
+                << name_of(scene->plan().chosen);
         }
     }
 }
@@ -112,9 +118,8 @@ TEST(Planner, MeasuresEveryCandidateThatFits) {
 }
 
 TEST(Planner, MeasuresAtLeastOneCandidateWithinATimeLimit) {
-    const auto scene = make_scene(make_soup(2000), three_steps(), [](Scene& s) {
-        s.set_effort(Effort::measure, Rule::smallest_total, 1e-9);
-    });
+    const auto scene = make_scene(make_soup(2000), three_steps(),
+                                  [](Scene& s) { s.set_effort(Effort::measure, Rule::smallest_total, 1e-9); });
     EXPECT_TRUE(scene->plan().candidate(scene->plan().chosen).measured);
 }
 

@@ -45,7 +45,8 @@ std::shared_ptr<const Profile> make_profile(const std::function<void(MachineCons
     return std::make_shared<const Profile>(std::move(profile));
 }
 
-std::shared_ptr<Scene> make_scene(const Soup& soup, std::shared_ptr<const Profile> profile, const std::function<void(Scene&)>& prepare) {
+std::shared_ptr<Scene> make_scene(const Soup& soup, std::shared_ptr<const Profile> profile,
+                                  const std::function<void(Scene&)>& prepare) {
     auto scene = std::make_shared<Scene>(std::move(profile));
     scene->add_triangles(soup.arrays(), true, false);
     if (prepare) prepare(*scene);

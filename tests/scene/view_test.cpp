@@ -31,7 +31,8 @@ std::vector<Ray> rays_of(const ViewFrame& frame) {
 }
 
 TEST(View, AnswersAsTheSceneWithTheSameBits) {
-    const auto scene = make_scene(make_soup(2000), generic(), [](Scene& s) { s.set_structure(Structure::linear_scan); });
+    const auto scene =
+        make_scene(make_soup(2000), generic(), [](Scene& s) { s.set_structure(Structure::linear_scan); });
     for (const ViewFrame& frame : frames()) {
         for (const Structure structure : all_structures()) {
             Progress progress;
@@ -63,7 +64,8 @@ TEST(View, KeepsToTheScenesMemoryLimit) {
         s.set_memory_limit(4000);
     });
     Progress progress;
-    EXPECT_THROW(View(scene, {frames()[0], {1000, RayKind::camera}, Structure::projected_bvh}, Parallel(1), progress), Error);
+    EXPECT_THROW(View(scene, {frames()[0], {1000, RayKind::camera}, Structure::projected_bvh}, Parallel(1), progress),
+                 Error);
     const View view(scene, {frames()[0], {1'000'000'000, RayKind::camera}, std::nullopt}, Parallel(1), progress);
     EXPECT_EQ(view.plan().chosen, Structure::linear_scan);
 }

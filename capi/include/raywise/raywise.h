@@ -68,27 +68,27 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
  * ------------------------------------------------------------------------------------------------ */
 
 #define RW_OK 0
-#define RW_ERROR_INVALID_ARGUMENT 1    /* NULL, an unknown constant, a struct_size that cannot be */
-#define RW_ERROR_OUT_OF_MEMORY 2       /* an allocation failed; nothing was changed */
-#define RW_ERROR_NOT_FINITE 3          /* a vertex has a NaN or infinite coordinate */
-#define RW_ERROR_COORDINATE_RANGE 4    /* a float64 vertex lies beyond what a float32 box can hold */
-#define RW_ERROR_INDEX_OUT_OF_RANGE 5  /* a triangle names a vertex that is not there */
-#define RW_ERROR_TOO_MANY 6            /* more vertices, triangles or rays than the ids can count */
-#define RW_ERROR_ALREADY_COMMITTED 7   /* a committed scene cannot be changed */
-#define RW_ERROR_NOT_COMMITTED 8       /* the scene has to be committed first */
-#define RW_ERROR_UNKNOWN_STRUCTURE 9   /* no structure has that name */
-#define RW_ERROR_WRONG_STRUCTURE 10    /* the question has no meaning for the structure in use */
-#define RW_ERROR_RAY_COUNT 11          /* an expected ray count of zero, or an absurd one */
-#define RW_ERROR_CAPACITY 12           /* the output is too small; `needed` says how large it has to be */
-#define RW_ERROR_CANCELLED 13          /* the progress callback asked to stop; nothing was changed */
-#define RW_ERROR_MEMORY_LIMIT 14       /* no candidate fits the memory limit */
-#define RW_ERROR_FILE_NOT_FOUND 15     /* there is no such file */
-#define RW_ERROR_FILE_UNREADABLE 16    /* the file is there but cannot be opened or read */
-#define RW_ERROR_FILE_FORMAT 17        /* the file's kind is unknown or its content is not of that kind */
-#define RW_ERROR_NO_FACES 18           /* a mesh file without a single face */
-#define RW_ERROR_BAD_POLYGON 19        /* a face with fewer than three corners */
-#define RW_ERROR_HOST_PARALLEL 20      /* the caller's parallel-for left a task out or ran one twice */
-#define RW_ERROR_INTERNAL 21           /* an unexpected failure; please report it */
+#define RW_ERROR_INVALID_ARGUMENT 1   /* NULL, an unknown constant, a struct_size that cannot be */
+#define RW_ERROR_OUT_OF_MEMORY 2      /* an allocation failed; nothing was changed */
+#define RW_ERROR_NOT_FINITE 3         /* a vertex has a NaN or infinite coordinate */
+#define RW_ERROR_COORDINATE_RANGE 4   /* a float64 vertex lies beyond what a float32 box can hold */
+#define RW_ERROR_INDEX_OUT_OF_RANGE 5 /* a triangle names a vertex that is not there */
+#define RW_ERROR_TOO_MANY 6           /* more vertices, triangles or rays than the ids can count */
+#define RW_ERROR_ALREADY_COMMITTED 7  /* a committed scene cannot be changed */
+#define RW_ERROR_NOT_COMMITTED 8      /* the scene has to be committed first */
+#define RW_ERROR_UNKNOWN_STRUCTURE 9  /* no structure has that name */
+#define RW_ERROR_WRONG_STRUCTURE 10   /* the question has no meaning for the structure in use */
+#define RW_ERROR_RAY_COUNT 11         /* an expected ray count of zero, or an absurd one */
+#define RW_ERROR_CAPACITY 12          /* the output is too small; `needed` says how large it has to be */
+#define RW_ERROR_CANCELLED 13         /* the progress callback asked to stop; nothing was changed */
+#define RW_ERROR_MEMORY_LIMIT 14      /* no candidate fits the memory limit */
+#define RW_ERROR_FILE_NOT_FOUND 15    /* there is no such file */
+#define RW_ERROR_FILE_UNREADABLE 16   /* the file is there but cannot be opened or read */
+#define RW_ERROR_FILE_FORMAT 17       /* the file's kind is unknown or its content is not of that kind */
+#define RW_ERROR_NO_FACES 18          /* a mesh file without a single face */
+#define RW_ERROR_BAD_POLYGON 19       /* a face with fewer than three corners */
+#define RW_ERROR_HOST_PARALLEL 20     /* the caller's parallel-for left a task out or ran one twice */
+#define RW_ERROR_INTERNAL 21          /* an unexpected failure; please report it */
 
 /* Why a calibration profile was not used. The library then works with its compiled-in generic constants. */
 #define RW_PROFILE_NOT_FOUND 22  /* there is no file at that path */
@@ -201,15 +201,15 @@ RW_API int32_t rw_profile_release(const rw_profile *profile);
 
 typedef struct rw_profile_info {
     uint32_t struct_size;
-    int32_t source;         /* RW_PROFILE_SOURCE_ */
-    int32_t status;         /* RW_OK, or why the file asked for was passed over */
-    uint32_t epoch;         /* calibration epoch of the constants */
-    const char *path;       /* of the file in use; empty for the generic constants */
-    const char *machine;    /* key of the machine it was measured on; "generic" */
-    const char *date;       /* when it was measured, ISO 8601 */
-    const char *tool;       /* the program and version that measured it */
-    double spread;          /* relative spread of repeated timings, 0.05 = 5 % */
-    uint32_t threads;       /* threads the machine offered when it was measured */
+    int32_t source;      /* RW_PROFILE_SOURCE_ */
+    int32_t status;      /* RW_OK, or why the file asked for was passed over */
+    uint32_t epoch;      /* calibration epoch of the constants */
+    const char *path;    /* of the file in use; empty for the generic constants */
+    const char *machine; /* key of the machine it was measured on; "generic" */
+    const char *date;    /* when it was measured, ISO 8601 */
+    const char *tool;    /* the program and version that measured it */
+    double spread;       /* relative spread of repeated timings, 0.05 = 5 % */
+    uint32_t threads;    /* threads the machine offered when it was measured */
     uint32_t reserved;
 } rw_profile_info;
 
@@ -224,7 +224,8 @@ RW_API int32_t rw_profile_inspect(const rw_profile *profile, rw_profile_info *in
  * needed: receives the bytes it takes, the final zero included; may be NULL.
  * Returns: RW_OK; RW_ERROR_CAPACITY when buffer is too small (it then holds the beginning, zero-terminated);
  * RW_ERROR_INVALID_ARGUMENT. Asking for the size only is RW_OK. Threads: any. Since: 0.1. */
-RW_API int32_t rw_profile_text(const rw_profile *profile, int32_t format, char *buffer, uint64_t capacity, uint64_t *needed);
+RW_API int32_t rw_profile_text(const rw_profile *profile, int32_t format, char *buffer, uint64_t capacity,
+                               uint64_t *needed);
 
 /* ------------------------------------------------------------------------------------------------
  * Meshes
@@ -297,7 +298,7 @@ typedef struct rw_ray {
 typedef struct rw_hit {
     double t;
     double u, v;
-    double normal[3]; /* geometric, unit length, (v1 - v0) x (v2 - v0): right-hand rule */
+    double normal[3];   /* geometric, unit length, (v1 - v0) x (v2 - v0): right-hand rule */
     uint32_t instance;  /* RW_INVALID_ID while the scene has no instances */
     uint32_t geometry;  /* as given by rw_scene_add_triangles */
     uint32_t primitive; /* position of the triangle in its mesh */
@@ -319,7 +320,7 @@ typedef struct rw_rays {
  * from the same float64 answer that rw_hit holds. */
 typedef struct rw_hits {
     uint32_t struct_size;
-    uint32_t flags; /* 0 */
+    uint32_t flags;      /* 0 */
     rw_output t;         /* float32 or float64 */
     rw_output uv;        /* 2 components, float32 or float64 */
     rw_output normal;    /* 3 components, float32 or float64 */
@@ -463,17 +464,17 @@ RW_API int32_t rw_scene_bounds(const rw_scene *scene, double *lower, double *upp
 typedef struct rw_scene_statistics {
     uint32_t struct_size;
     uint32_t geometry_count;
-    uint64_t triangle_count;      /* all, degenerate and invalid ones included */
+    uint64_t triangle_count;       /* all, degenerate and invalid ones included */
     uint64_t degenerate_triangles; /* without area: never hit */
-    uint64_t invalid_triangles;   /* skipped by RW_TRIANGLES_SKIP_INVALID: never hit */
-    const char *structure;        /* the one in use */
-    double decide_ns;             /* time spent on choosing */
-    double build_ns;              /* time spent on building what is in use */
-    uint64_t structure_bytes;     /* memory of the structure */
-    uint64_t geometry_bytes;      /* memory of copied meshes */
-    uint64_t rays;                /* answered in batches so far */
-    uint64_t invalid_rays;        /* rays with a NaN so far, single calls included */
-    double rays_ns;               /* wall time of those batches */
+    uint64_t invalid_triangles;    /* skipped by RW_TRIANGLES_SKIP_INVALID: never hit */
+    const char *structure;         /* the one in use */
+    double decide_ns;              /* time spent on choosing */
+    double build_ns;               /* time spent on building what is in use */
+    uint64_t structure_bytes;      /* memory of the structure */
+    uint64_t geometry_bytes;       /* memory of copied meshes */
+    uint64_t rays;                 /* answered in batches so far */
+    uint64_t invalid_rays;         /* rays with a NaN so far, single calls included */
+    double rays_ns;                /* wall time of those batches */
 } rw_scene_statistics;
 
 /* Does: tells what is in a scene and what it has cost.
@@ -493,8 +494,8 @@ typedef struct rw_grid_statistics {
     double mean;             /* eq. 3: references per cell */
     double variance;         /* eq. 4 */
     double standard_deviation;
-    double skewness;         /* eq. 5; 0 when the variance is 0 */
-    double kurtosis;         /* eq. 6; 0 when the variance is 0 */
+    double skewness; /* eq. 5; 0 when the variance is 0 */
+    double kurtosis; /* eq. 6; 0 when the variance is 0 */
 } rw_grid_statistics;
 
 /* Does: tells the statistics of the grid in use.
@@ -523,7 +524,8 @@ RW_API int32_t rw_scene_occluded(const rw_scene *scene, const rw_ray *ray, int32
  * Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (the closest ones are then written);
  * RW_ERROR_NOT_COMMITTED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Asking for the number only is RW_OK.
  * Threads: any. Since: 0.1. */
-RW_API int32_t rw_scene_intersect_all(const rw_scene *scene, const rw_ray *ray, rw_hit *hits, uint64_t capacity, uint64_t *needed);
+RW_API int32_t rw_scene_intersect_all(const rw_scene *scene, const rw_ray *ray, rw_hit *hits, uint64_t capacity,
+                                      uint64_t *needed);
 
 /* Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
  * rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
@@ -531,12 +533,14 @@ RW_API int32_t rw_scene_intersect_all(const rw_scene *scene, const rw_ray *ray, 
  * options: struct_size set; NULL: the defaults.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
  * RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
-RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits, const rw_query_options *options);
+RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits,
+                                        const rw_query_options *options);
 
 /* Does: tells for many rays whether they hit anything.
  * occluded: uint8, uint32 or uint64, 1 or 0 for each ray; data not NULL.
  * Otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1. */
-RW_API int32_t rw_scene_occluded_batch(const rw_scene *scene, const rw_rays *rays, const rw_output *occluded, const rw_query_options *options);
+RW_API int32_t rw_scene_occluded_batch(const rw_scene *scene, const rw_rays *rays, const rw_output *occluded,
+                                       const rw_query_options *options);
 
 /* Does: finds every hit of many rays. The hits of ray i are the elements offsets[i] up to offsets[i + 1] of the outputs,
  * sorted as in rw_scene_intersect_all.
@@ -545,33 +549,34 @@ RW_API int32_t rw_scene_occluded_batch(const rw_scene *scene, const rw_rays *ray
  * needed: receives the number of all hits, offsets[rays->count]; may be NULL.
  * Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
  * otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1. */
-RW_API int32_t rw_scene_intersect_all_batch(const rw_scene *scene, const rw_rays *rays, uint64_t *offsets, const rw_hits *hits,
-                                            uint64_t capacity, uint64_t *needed, const rw_query_options *options);
+RW_API int32_t rw_scene_intersect_all_batch(const rw_scene *scene, const rw_rays *rays, uint64_t *offsets,
+                                            const rw_hits *hits, uint64_t capacity, uint64_t *needed,
+                                            const rw_query_options *options);
 
 /* ------------------------------------------------------------------------------------------------
  * Scenes: why this structure
  * ------------------------------------------------------------------------------------------------ */
 
-#define RW_CANDIDATE_CHOSEN 1u     /* the one in use */
-#define RW_CANDIDATE_FORCED 2u     /* chosen because the caller named it */
-#define RW_CANDIDATE_OVER_LIMIT 4u /* would not fit the memory limit */
-#define RW_CANDIDATE_MEASURED 8u   /* built and timed while choosing */
+#define RW_CANDIDATE_CHOSEN 1u          /* the one in use */
+#define RW_CANDIDATE_FORCED 2u          /* chosen because the caller named it */
+#define RW_CANDIDATE_OVER_LIMIT 4u      /* would not fit the memory limit */
+#define RW_CANDIDATE_MEASURED 8u        /* built and timed while choosing */
 #define RW_CANDIDATE_NOT_APPLICABLE 16u /* has no meaning here: no view, or outside the rule */
 
 /* One structure as the decision saw it. NaN stands for a figure that is not known. */
 typedef struct rw_candidate {
     uint32_t struct_size;
-    uint32_t flags;          /* RW_CANDIDATE_ */
-    const char *structure;   /* a constant text */
+    uint32_t flags;        /* RW_CANDIDATE_ */
+    const char *structure; /* a constant text */
     double predicted_build_ns;
-    double predicted_ray_ns; /* per ray of the expected kind */
-    double predicted_error;  /* relative residual of the calibration, 0.2 = 20 % */
+    double predicted_ray_ns;   /* per ray of the expected kind */
+    double predicted_error;    /* relative residual of the calibration, 0.2 = 20 % */
     double predicted_total_ns; /* build + expected rays; NaN when their number is unknown */
-    double break_even_rays;  /* from so many rays on it beats the chosen one; INFINITY: never; NaN for the chosen one */
+    double break_even_rays; /* from so many rays on it beats the chosen one; INFINITY: never; NaN for the chosen one */
     uint64_t predicted_bytes;
-    uint64_t actual_bytes;   /* 0: not known */
+    uint64_t actual_bytes; /* 0: not known */
     double actual_build_ns;
-    double actual_ray_ns;    /* of the batches so far, or of the sample while choosing */
+    double actual_ray_ns; /* of the batches so far, or of the sample while choosing */
 } rw_candidate;
 
 /* Does: counts the candidates of the decision; one per structure.
@@ -585,7 +590,8 @@ RW_API int32_t rw_scene_get_candidate(const rw_scene *scene, uint32_t index, rw_
 
 /* Does: explains the choice: scene, profile, each candidate with predicted and actual build time, ns per ray and bytes.
  * Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1. */
-RW_API int32_t rw_scene_explain(const rw_scene *scene, int32_t format, char *buffer, uint64_t capacity, uint64_t *needed);
+RW_API int32_t rw_scene_explain(const rw_scene *scene, int32_t format, char *buffer, uint64_t capacity,
+                                uint64_t *needed);
 
 /* ------------------------------------------------------------------------------------------------
  * Views: rays that share an origin or a direction
@@ -600,15 +606,15 @@ typedef struct rw_view rw_view;
 
 typedef struct rw_view_options {
     uint32_t struct_size;
-    int32_t kind;          /* RW_VIEW_ */
-    double origin[3];      /* RW_VIEW_POINT: the point */
-    double direction[3];   /* RW_VIEW_DIRECTION: the direction, any length but zero. RW_VIEW_POINT: where the view looks;
+    int32_t kind;        /* RW_VIEW_ */
+    double origin[3];    /* RW_VIEW_POINT: the point */
+    double direction[3]; /* RW_VIEW_DIRECTION: the direction, any length but zero. RW_VIEW_POINT: where the view looks;
                               all zero: all around, a cube of six planes */
-    double half_angle;     /* RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, below pi/2;
+    double half_angle;   /* RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, below pi/2;
                               0: pi/4. Rays outside are answered as by the scene. */
-    uint64_t count;        /* expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error */
-    int32_t ray_kind;      /* RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera */
-    int32_t reserved;      /* 0 */
+    uint64_t count;      /* expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error */
+    int32_t ray_kind;    /* RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera */
+    int32_t reserved;    /* 0 */
     const char *structure; /* forces a structure by name; NULL: the library chooses, the scene's own one included */
 } rw_view_options;
 
@@ -619,7 +625,8 @@ typedef struct rw_view_options {
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_RAY_COUNT, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_NOT_FINITE (origin or
  * direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL,
  * RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
-RW_API int32_t rw_view_create(const rw_scene *scene, const rw_view_options *options, const rw_commit_options *commit, rw_view **view);
+RW_API int32_t rw_view_create(const rw_scene *scene, const rw_view_options *options, const rw_commit_options *commit,
+                              rw_view **view);
 
 /* Does: adds a reference. view: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_view_retain(const rw_view *view);
@@ -634,17 +641,21 @@ RW_API int32_t rw_view_intersect(const rw_view *view, const rw_ray *ray, rw_hit 
 RW_API int32_t rw_view_occluded(const rw_view *view, const rw_ray *ray, int32_t *occluded);
 
 /* Does: as rw_scene_intersect_all. Threads: any. Since: 0.1. */
-RW_API int32_t rw_view_intersect_all(const rw_view *view, const rw_ray *ray, rw_hit *hits, uint64_t capacity, uint64_t *needed);
+RW_API int32_t rw_view_intersect_all(const rw_view *view, const rw_ray *ray, rw_hit *hits, uint64_t capacity,
+                                     uint64_t *needed);
 
 /* Does: as rw_scene_intersect_batch. Threads: any. Since: 0.1. */
-RW_API int32_t rw_view_intersect_batch(const rw_view *view, const rw_rays *rays, const rw_hits *hits, const rw_query_options *options);
+RW_API int32_t rw_view_intersect_batch(const rw_view *view, const rw_rays *rays, const rw_hits *hits,
+                                       const rw_query_options *options);
 
 /* Does: as rw_scene_occluded_batch. Threads: any. Since: 0.1. */
-RW_API int32_t rw_view_occluded_batch(const rw_view *view, const rw_rays *rays, const rw_output *occluded, const rw_query_options *options);
+RW_API int32_t rw_view_occluded_batch(const rw_view *view, const rw_rays *rays, const rw_output *occluded,
+                                      const rw_query_options *options);
 
 /* Does: as rw_scene_intersect_all_batch. Threads: any. Since: 0.1. */
-RW_API int32_t rw_view_intersect_all_batch(const rw_view *view, const rw_rays *rays, uint64_t *offsets, const rw_hits *hits,
-                                           uint64_t capacity, uint64_t *needed, const rw_query_options *options);
+RW_API int32_t rw_view_intersect_all_batch(const rw_view *view, const rw_rays *rays, uint64_t *offsets,
+                                           const rw_hits *hits, uint64_t capacity, uint64_t *needed,
+                                           const rw_query_options *options);
 
 /* Does: counts the candidates of the view's decision. As rw_scene_candidate_count. Threads: any. Since: 0.1. */
 RW_API int32_t rw_view_candidate_count(const rw_view *view, uint32_t *count);
@@ -661,10 +672,10 @@ RW_API int32_t rw_view_explain(const rw_view *view, int32_t format, char *buffer
 
 typedef struct rw_once_options {
     uint32_t struct_size;
-    int32_t kind;              /* RW_RAYS_ kind of the rays */
-    const rw_profile *profile; /* NULL: as rw_profile_load(NULL) finds it */
-    const char *structure;     /* forces a structure by name; NULL: the library chooses */
-    uint64_t memory_limit;     /* bytes of the structure; 0: no limit */
+    int32_t kind;                  /* RW_RAYS_ kind of the rays */
+    const rw_profile *profile;     /* NULL: as rw_profile_load(NULL) finds it */
+    const char *structure;         /* forces a structure by name; NULL: the library chooses */
+    uint64_t memory_limit;         /* bytes of the structure; 0: no limit */
     const rw_query_options *query; /* NULL: the defaults */
 } rw_once_options;
 
@@ -675,13 +686,13 @@ typedef struct rw_once_options {
  * rays, hits: as rw_scene_intersect_batch. options: struct_size set; NULL: the defaults.
  * Returns: RW_OK, or what rw_scene_add_triangles, rw_scene_commit and rw_scene_intersect_batch may return.
  * Threads: any. Since: 0.1. */
-RW_API int32_t rw_once_intersect(const rw_triangles *meshes, uint32_t mesh_count, const rw_rays *rays, const rw_hits *hits,
-                                 const rw_once_options *options);
+RW_API int32_t rw_once_intersect(const rw_triangles *meshes, uint32_t mesh_count, const rw_rays *rays,
+                                 const rw_hits *hits, const rw_once_options *options);
 
 /* Does: as rw_once_intersect, for the question whether anything is hit. occluded: as rw_scene_occluded_batch.
  * Threads: any. Since: 0.1. */
-RW_API int32_t rw_once_occluded(const rw_triangles *meshes, uint32_t mesh_count, const rw_rays *rays, const rw_output *occluded,
-                                const rw_once_options *options);
+RW_API int32_t rw_once_occluded(const rw_triangles *meshes, uint32_t mesh_count, const rw_rays *rays,
+                                const rw_output *occluded, const rw_once_options *options);
 
 #ifdef __cplusplus
 }
