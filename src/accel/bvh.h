@@ -1,4 +1,5 @@
-// A binary bounding volume hierarchy (Rubin and Whitted 1980; Goldsmith and Salmon 1987), and how a ray walks through it.
+// A binary bounding volume hierarchy (Rubin and Whitted 1980; Goldsmith and Salmon 1987), and how a ray walks through
+// it.
 #pragma once
 
 #include "accel/bvh_build.h"
@@ -12,16 +13,18 @@ namespace raywise {
 
 // A ray made ready for the boxes of one tree: the test of may_hit_box (base/ray.h) in the tree's coordinates.
 //
-// No box that holds a hit is skipped. A hit is a point of the ray's line inside the triangle, at some t*, and its computed t is
-// within margin / 8 of t*. The box holds the triangle, so on each axis t* lies between the exact distances of the two
-// planes. What is computed for a plane may differ from its distance for two reasons:
+// No box that holds a hit is skipped. A hit is a point of the ray's line inside the triangle, at some t*, and its
+// computed t is within margin / 8 of t*. The box holds the triangle, so on each axis t* lies between the exact
+// distances of the two planes. What is computed for a plane may differ from its distance for two reasons:
 //
-// - Rounding of the difference and the product: 2^-51 of the distance. |t*| is at most the ray's reach, and a distance beyond
-//   twice the reach stays beyond it, so this is at most 2^-50 of the reach where it matters; the margin is 2^-34 of it.
-// - The point, the plane or the origin are a little off: the shift to the tree's center rounds box and origin by 2^-52 of the
-//   reach together, and an inverse that overflows or a difference of denormal numbers is as good as that. On an axis where
-//   the direction is nearly zero this moves the plane's distance without bound. So the box is widened, by moving the
-//   entry planes and the exit planes apart by 2^-50 of the reach. It costs nothing: each set has its own copy of the origin.
+// - Rounding of the difference and the product: 2^-51 of the distance. |t*| is at most the ray's reach, and a distance
+//   beyond twice the reach stays beyond it, so this is at most 2^-50 of the reach where it matters; the margin is 2^-34
+//   of it.
+// - The point, the plane or the origin are a little off: the shift to the tree's center rounds box and origin by 2^-52
+//   of the reach together, and an inverse that overflows or a difference of denormal numbers is as good as that. On an
+//   axis where the direction is nearly zero this moves the plane's distance without bound. So the box is widened, by
+//   moving the entry planes and the exit planes apart by 2^-50 of the reach. It costs nothing: each set has its own
+//   copy of the origin.
 //
 // So entry <= t* + margin / 8 <= t + margin / 4 and exit >= t* - margin / 8 >= t - margin / 4 on every axis: all three
 // comparisons of may_hit pass with three quarters of the margin to spare.
@@ -39,8 +42,8 @@ public:
         }
     }
 
-    // Whether the node may hold a hit up to `limit`; `near` receives the distance at which the ray enters it. A NaN (zero
-    // times infinity: the ray runs along the widened plane) leaves the interval as it is.
+    // Whether the node may hold a hit up to `limit`; `near` receives the distance at which the ray enters it. A NaN
+    // (zero times infinity: the ray runs along the widened plane) leaves the interval as it is.
     bool may_hit(const BvhNode& node, double limit, double& near) const {
         double entry = -std::numeric_limits<double>::infinity();
         double exit = std::numeric_limits<double>::infinity();

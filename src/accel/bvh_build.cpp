@@ -17,8 +17,8 @@ constexpr std::uint32_t max_leaf_size = 16;
 // Nodes of at most so many primitives try every split of the sorted centroids instead of bins.
 constexpr std::uint32_t sweep_size = 4;
 
-// Up to so many primitives a thread builds the whole subtree; above, all threads share the work on one node. It depends on
-// nothing but the scene, and neither does the tree therefore.
+// Up to so many primitives a thread builds the whole subtree; above, all threads share the work on one node. It depends
+// on nothing but the scene, and neither does the tree therefore.
 constexpr std::uint32_t job_size = 4096;
 
 constexpr std::uint32_t report_size = 65536; // primitives between two reports of progress
@@ -81,8 +81,8 @@ struct CentroidBounds : Bounds {
     }
 };
 
-// From a centroid to its bin on each axis; monotone. An axis on which the centroids agree, or are so close or so far apart that
-// float32 cannot divide the axis, has the one bin 0.
+// From a centroid to its bin on each axis; monotone. An axis on which the centroids agree, or are so close or so far
+// apart that float32 cannot divide the axis, has the one bin 0.
 class Binning {
 public:
     Binning(const CentroidBounds& centroids, int count) : count_(count) {
@@ -202,8 +202,9 @@ private:
         std::vector<BvhPair> pairs;
     };
 
-    // ---- Progress. Each primitive is reported once where it is gathered, for the root's bounds, in its job and in the end, and
-    // twice on every level of the top. Taken for balanced; a deeper top reaches the end too early and stays there.
+    // ---- Progress. Each primitive is reported once where it is gathered, for the root's bounds, in its job and in the
+    // end, and twice on every level of the top. Taken for balanced; a deeper top reaches the end too early and stays
+    // there.
 
     void report(std::uint64_t primitives) {
         const double work = static_cast<double>(done_ += primitives);
@@ -379,8 +380,8 @@ private:
         return true;
     }
 
-    // The surface area heuristic (Goldsmith and Salmon 1987, MacDonald and Booth 1990): a ray that meets the node meets a
-    // child with the ratio of their areas as probability.
+    // The surface area heuristic (Goldsmith and Salmon 1987, MacDonald and Booth 1990): a ray that meets the node meets
+    // a child with the ratio of their areas as probability.
     bool worth_splitting(const Range& range, const Split& split) const {
         if (split.axis == no_axis) return false;
         const double area = range.bounds.half_area();
@@ -390,10 +391,10 @@ private:
 
     // ---- Splits.
 
-    // A split by the heuristic may leave nearly all primitives on one side. It is allowed as long as halving from there on
-    // would still end in time: depth + ceil_log2(count) <= bvh_max_depth holds for the root (count < 2^32) and for the children
-    // of every node, because halving lowers the logarithm by one where depth + 1 would exceed the bound. So a node at
-    // depth bvh_max_depth has one primitive, and is a leaf.
+    // A split by the heuristic may leave nearly all primitives on one side. It is allowed as long as halving from there
+    // on would still end in time: depth + ceil_log2(count) <= bvh_max_depth holds for the root (count < 2^32) and for
+    // the children of every node, because halving lowers the logarithm by one where depth + 1 would exceed the bound.
+    // So a node at depth bvh_max_depth has one primitive, and is a leaf.
     static bool must_halve(const Range& range) { return range.depth + ceil_log2(range.count()) >= bvh_max_depth; }
 
     static Split best_split(const Bins& bins) {
@@ -455,8 +456,8 @@ private:
         std::copy_n(sorted.begin(), n, references);
     }
 
-    // The order of a few references by centroid, found by insertion; the number of the primitive makes it, and with it the
-    // tree, independent of what was there before.
+    // The order of a few references by centroid, found by insertion; the number of the primitive makes it, and with it
+    // the tree, independent of what was there before.
     class Order {
     public:
         Order(const BuildReference* references, std::uint32_t n, int axis) {

@@ -26,11 +26,12 @@ struct alignas(64) BvhPair {
     BvhNode child[2];
 };
 
-// A pair's index is above that of the pair its parent is in. Without any primitive that can be hit all is empty, the root too.
+// A pair's index is above that of the pair its parent is in. Without any primitive that can be hit all is empty, the
+// root too.
 struct BvhTree {
-    // What the boxes are relative to: zero, or, where the scene lies far from the origin of coordinates compared with its
-    // size, its middle. float32 resolves 0.5 m at a distance of 5,000 km: boxes of millimetre triangles that are kept in
-    // float64 would all be alike there.
+    // What the boxes are relative to: zero, or, where the scene lies far from the origin of coordinates compared with
+    // its size, its middle. float32 resolves 0.5 m at a distance of 5,000 km: boxes of millimetre triangles that are
+    // kept in float64 would all be alike there.
     Vec3 center{0.0};
     BvhNode root{};
     std::vector<BvhPair> pairs;
@@ -42,8 +43,9 @@ struct BvhTree {
     }
 };
 
-// Builds the tree top-down by the surface area heuristic, with bins (Wald 2007, "On fast Construction of SAH-based Bounding
-// Volume Hierarchies"). The same tree for any number of threads. Progress is reported from 0 to `progress_end`.
+// Builds the tree top-down by the surface area heuristic, with bins (Wald 2007, "On fast Construction of SAH-based
+// Bounding Volume Hierarchies"). The same tree for any number of threads. Progress is reported from 0 to
+// `progress_end`.
 BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0);
 
 } // namespace raywise

@@ -75,7 +75,8 @@ private:
         tree_.widest_ray = 0.0625 * std::max(root_.upper.x - root_.lower.x, root_.upper.y - root_.lower.y);
     }
 
-    // The next node on the way down that has triangles on the plane in it: itself, when it is a leaf or both its children have.
+    // The next node on the way down that has triangles on the plane in it: itself, when it is a leaf or both its
+    // children have.
     std::uint32_t skip_single(std::uint32_t node) const {
         for (;;) {
             const BvhNode& n = box(node);

@@ -24,10 +24,10 @@ Vec3 scaled_to_one(const Vec3& v) {
 
 } // namespace
 
-// A linear form of a point relative to the view's origin: a sum of three products of rounded differences. Each of the four
-// roundings on the way of a term is 2^-53 of it, so 2^-50.9 of the sum of the terms' magnitudes is enough; four times as much
-// is taken for the bound, so that what is computed from the coordinates (a quotient, another product, the bound itself) may
-// round too.
+// A linear form of a point relative to the view's origin: a sum of three products of rounded differences. Each of the
+// four roundings on the way of a term is 2^-53 of it, so 2^-50.9 of the sum of the terms' magnitudes is enough; four
+// times as much is taken for the bound, so that what is computed from the coordinates (a quotient, another product, the
+// bound itself) may round too.
 struct ProjectionPlane::Coordinates {
     double value[3]; // right, up, forward
     double error[3];
@@ -52,8 +52,8 @@ ProjectionPlane::ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const
       origin_(origin),
       forward_(forward / std::sqrt(glm::dot(forward, forward))),
       reach_(max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)))) {
-    // Across: the axis of coordinates that is farthest from `forward` keeps the frame well conditioned; for a cube's planes
-    // the frame is made of the axes themselves and does not round.
+    // Across: the axis of coordinates that is farthest from `forward` keeps the frame well conditioned; for a cube's
+    // planes the frame is made of the axes themselves and does not round.
     const Vec3 size = glm::abs(forward_);
     Vec3 other(0.0);
     other[size.x <= size.y ? (size.x <= size.z ? 0 : 2) : (size.y <= size.z ? 1 : 2)] = 1.0;
@@ -113,17 +113,17 @@ Footprint ProjectionPlane::footprint(const Corners& corners) const {
     return footprint;
 }
 
-// A ray that project() accepts can hit the triangle either within the core (see there), or at depth > 0 with |u| and |v| up to
-// clip_limit_. Whatever may touch the core covers all of the plane, at any depth its corners have. For all others, with the
-// second kind of points only:
+// A ray that project() accepts can hit the triangle either within the core (see there), or at depth > 0 with |u| and
+// |v| up to clip_limit_. Whatever may touch the core covers all of the plane, at any depth its corners have. For all
+// others, with the second kind of points only:
 //
 // - u <= s there if right . P <= s * (forward . P) at all three corners, behind the view's plane or in front: the
-//   difference is linear, so it has one sign all over the triangle, and dividing by the depth, positive at the points that
-//   count, keeps it. For a triangle that straddles the view's plane this finds the one finite side it may have. Bounds from below
-//   by mirroring.
+//   difference is linear, so it has one sign all over the triangle, and dividing by the depth, positive at the points
+//   that count, keeps it. For a triangle that straddles the view's plane this finds the one finite side it may have.
+//   Bounds from below by mirroring.
 // - If u > clip_limit_ at all of the triangle (the same linear test), no such point exists: the plane need not know it.
-// - Where all corners have right . P >= a > 0 the depth is at least a / clip_limit_: a floor that runs under the point is
-//   far away within the pyramid that looks at the horizon.
+// - Where all corners have right . P >= a > 0 the depth is at least a / clip_limit_: a floor that runs under the point
+//   is far away within the pyramid that looks at the horizon.
 Footprint ProjectionPlane::point_footprint(const Corners& corners, const Coordinates (&c)[3]) const {
     Footprint footprint;
     footprint.near = std::min({c[0].low(2), c[1].low(2), c[2].low(2)});
@@ -176,8 +176,9 @@ bool ProjectionPlane::may_touch_core(const Corners& corners, const Coordinates (
         if (c[0].low(i) > distance && c[1].low(i) > distance && c[2].low(i) > distance) return false;
         if (c[0].high(i) < -distance && c[1].high(i) < -distance && c[2].high(i) < -distance) return false;
     }
-    // Or in a plane that passes the point farther away. With edges up to e the normal's components are wrong by less than
-    // 2^-50 e^2, and its product with a corner, m from the point, by less than 2^-47 e^2 m. (Tiny edges: no underflow.)
+    // Or in a plane that passes the point farther away. With edges up to e the normal's components are wrong by less
+    // than 2^-50 e^2, and its product with a corner, m from the point, by less than 2^-47 e^2 m. (Tiny edges: no
+    // underflow.)
     const Vec3 p = corners[0] - origin_;
     const Vec3 a = corners[1] - corners[0];
     const Vec3 b = corners[2] - corners[0];
@@ -195,23 +196,25 @@ bool ProjectionPlane::project(const PreparedRay& ray, ProjectedRay& projected) c
                                            : project_along_direction(ray, projected);
 }
 
-// Of z0 + t * rate, at all points of the scene. `offset`: of the ray's origin. z0 is wrong by less than 2^-50 of
-// the offset, the rate by less than 2^-47 (its terms are below 2, 6 in sum). A hit's |t * rate| is at most the depth
-// of the scene and z0 together, below 4 (reach + |offset|), so |t| is below that over the rate; and the product rounds. A limit
-// on t that is farther off leads to a depth farther than all of the scene, on the right side, whatever it rounds to.
+// Of z0 + t * rate, at all points of the scene. `offset`: of the ray's origin. z0 is wrong by less than 2^-50 of the
+// offset, the rate by less than 2^-47 (its terms are below 2, 6 in sum). A hit's |t * rate| is at most the depth of the
+// scene and z0 together, below 4 (reach + |offset|), so |t| is below that over the rate; and the product rounds. A
+// limit on t that is farther off leads to a depth farther than all of the scene, on the right side, whatever it rounds
+// to.
 double ProjectionPlane::depth_error(const Vec3& offset, double inverse_rate) const {
     return 0x1p-43 * (sum_of_magnitudes(offset) + reach_) * (1.0 + std::fabs(inverse_rate)) + tiny;
 }
 
-// The ray's line, by depth z: right . P = a + b z with b = dx / dz and a = x0 - z0 b, where (x0, y0, z0) is the ray's origin and
-// (dx, dy, dz) its direction in the frame. So u = b + a / z. A ray from the view's point has a = 0, and is one point of the plane.
-// A ray that aims at the point, its direction rounded, passes it by a tiny a: u stays within |a| / cut of b down to the depth
-// `cut`. Nearer by than that a node is not judged by its rectangle.
+// The ray's line, by depth z: right . P = a + b z with b = dx / dz and a = x0 - z0 b, where (x0, y0, z0) is the ray's
+// origin and (dx, dy, dz) its direction in the frame. So u = b + a / z. A ray from the view's point has a = 0, and is
+// one point of the plane. A ray that aims at the point, its direction rounded, passes it by a tiny a: u stays within
+// |a| / cut of b down to the depth `cut`. Nearer by than that a node is not judged by its rectangle.
 //
 // A ray is only accepted when what happens around the point is in the core, a ball of radius core_ whose triangles
 // cover all of the plane:
 // - Hits have t* in [tmin - margin, tmax + margin] (base/ray.h), a little outside of what the ray asks for: from there
-//   follows the least depth `least` of any hit. The margin is 2^-34 of the ray's reach, and the core 2^-18 of the view's.
+//   follows the least depth `least` of any hit. The margin is 2^-34 of the ray's reach, and the core 2^-18 of the
+//   view's.
 // - At depths above `inner`, |u| = |b + a / z| is below clip_limit_, where the plane knows all of the scene.
 // - At depths between `least` and `inner` the line stays within core_ / 2 of the point on each axis of the frame.
 bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& projected) const {
@@ -246,8 +249,8 @@ bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& p
         if (!(a + std::max(1.0, slope_limit_) * farthest <= 0.5 * core_)) return false;
     }
 
-    // A cut that leaves as little undecided before it as beyond it, relative to the scene; or none, where there is no hit
-    // before it.
+    // A cut that leaves as little undecided before it as beyond it, relative to the scene; or none, where there is no
+    // hit before it.
     double cut = -infinity;
     double spread = slope_error;
     if (a > 0.0) {

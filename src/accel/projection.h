@@ -1,9 +1,11 @@
-// Projection of triangles and rays onto a plane of a view (Bezerianos, thesis, 3.1 and 5.1), with bounds for all rounding.
+// Projection of triangles and rays onto a plane of a view (Bezerianos, thesis, 3.1 and 5.1), with bounds for all
+// rounding.
 //
 // A view's frame has three axes: two along the plane, u and v, and the depth along the direction the view looks. With a
-// point P relative to the view's origin, seen through a point: (u, v) = (right . P, up . P) / (forward . P); seen along a
-// direction: (u, v) = (right . P, up . P). Either takes a ray that starts at (runs along) the view to one point, and a triangle in
-// front to a triangle. The axes are what is stored, rounded as they are: nothing below needs them to be orthogonal.
+// point P relative to the view's origin, seen through a point: (u, v) = (right . P, up . P) / (forward . P); seen along
+// a direction: (u, v) = (right . P, up . P). Either takes a ray that starts at (runs along) the view to one point, and
+// a triangle in front to a triangle. The axes are what is stored, rounded as they are: nothing below needs them to be
+// orthogonal.
 #pragma once
 
 #include "accel/accel.h"
@@ -14,8 +16,8 @@
 
 namespace raywise {
 
-// What a triangle, or several, cover on the plane: a rectangle and a range of depth. Empty: no ray the plane takes can hit
-// them.
+// What a triangle, or several, cover on the plane: a rectangle and a range of depth. Empty: no ray the plane takes can
+// hit them.
 struct Footprint {
     Vec2 lower{std::numeric_limits<double>::infinity()};
     Vec2 upper{-std::numeric_limits<double>::infinity()};
@@ -31,8 +33,8 @@ struct Footprint {
     }
 };
 
-// A ray on the plane: a rectangle that holds the projection of its part beyond `cut`, almost a point, and its depth as a
-// function of t. Whatever reaches nearer than `cut` may be hit outside of the rectangle.
+// A ray on the plane: a rectangle that holds the projection of its part beyond `cut`, almost a point, and its depth as
+// a function of t. Whatever reaches nearer than `cut` may be hit outside of the rectangle.
 struct ProjectedRay {
     Vec2 lower;
     Vec2 upper;
@@ -44,15 +46,16 @@ struct ProjectedRay {
 
 class ProjectionPlane {
 public:
-    // The planes of a view: one, or six around a point (the thesis's light cube, 3.2.1; in the order +x, -x, +y, -y, +z, -z);
-    // none where a view cannot be used, its point so far away that squares overflow, say. bounds: of the scene.
+    // The planes of a view: one, or six around a point (the thesis's light cube, 3.2.1; in the order +x, -x, +y, -y,
+    // +z, -z); none where a view cannot be used, its point so far away that squares overflow, say. bounds: of the
+    // scene.
     static std::vector<ProjectionPlane> of_view(const ViewFrame& view, const Box& bounds);
 
     // Covers all points at which a ray that project() accepts can hit the triangle.
     Footprint footprint(const Corners& corners) const;
 
-    // False when the plane cannot take the ray: it does not run through the view's point (in its direction), looks past the
-    // plane, or passes the point.
+    // False when the plane cannot take the ray: it does not run through the view's point (in its direction), looks past
+    // the plane, or passes the point.
     bool project(const PreparedRay& ray, ProjectedRay& projected) const;
 
 private:
@@ -95,8 +98,9 @@ private:
     std::vector<ProjectionPlane> planes_;
 };
 
-// A float not above x, and one not below it, within a few units in the last place; for any x but NaN. Rounding moves a number by
-// at most 2^-24 of it, or, where it is denormal, by 2^-150. Without a branch that depends on the last bits: each ray does it.
+// A float not above x, and one not below it, within a few units in the last place; for any x but NaN. Rounding moves a
+// number by at most 2^-24 of it, or, where it is denormal, by 2^-150. Without a branch that depends on the last bits:
+// each ray does it.
 inline float float_above(double x) {
     constexpr double most = std::numeric_limits<float>::max();
     if (std::isinf(x)) return static_cast<float>(x);

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace raywise {
@@ -23,6 +24,6 @@ inline typename Vector::value_type at(const Vector& v, int axis) {
 
 inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-inline double max_component(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+inline double max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 } // namespace raywise

@@ -17,14 +17,11 @@ Vec3 scaled_normal(const Corners& c) {
     Vec3 e = c[1] - c[0];
     Vec3 f = c[2] - c[0];
     const Vec3 largest = glm::max(glm::abs(e), glm::abs(f));
-    if (max_component(largest) == 0.0) return Vec3(0.0);
-    const int common = std::ilogb(max_component(largest));
-    for (int axis = 0; axis < 3; ++axis) {
-        e[axis] = std::ldexp(e[axis], -common);
-        f[axis] = std::ldexp(f[axis], -common);
-    }
+    const double size = max_component(largest);
+    if (size == 0.0) return Vec3(0.0);
     Vec3 n = glm::cross(e, f);
-    if (max_component(glm::abs(n)) > 0x1p-30) return n; // its rounding is below 2^-50
+    // Its rounding is below 2^-50 of size^2, as long as the squares are normal numbers.
+    if (size > 0x1p-300 && size < 0x1p300 && max_component(glm::abs(n)) > 0x1p-30 * size * size) return n;
 
     // Each axis is scaled by itself, so that a triangle may be huge along one and tiny along another. A component of the normal
     // is made of the other two axes; the scales are taken back relative to the largest component.

@@ -244,14 +244,17 @@ TEST(ProjectedBvh, FineDetailCloseToTheLight) {
     for (int i = 0; i < rays && !testing::Test::HasFailure(); ++i) {
         const Corners& c =
             triangles[static_cast<std::size_t>(random.integer(20, static_cast<int>(triangles.size()) - 1))];
-        const Vec3 target = 0.3 * c[0] + 0.3 * c[1] + 0.4 * c[2];
+        const double weight = random.uniform(-0.1, 1.1); // about an edge: that is where the ray may pass on either side
+        const Vec3 target = weight * c[0] + (1.0 - weight) * c[1] + random.uniform(-0.05, 0.1) * (c[2] - c[0]);
         const Vec3 away = target - light;
         const Vec3 origin = through_float(light + random.uniform(0.5, 3.0) / max_component(glm::abs(away)) * away);
-        const Ray ray{origin, 0.0, through_float(light - origin), 1.0};
+        // A unit direction: the difference alone often needs no rounding.
+        const double distance = std::sqrt(glm::dot(light - origin, light - origin));
+        const Ray ray{origin, 0.0, through_float((light - origin) / distance), distance};
         hits += expect_same(scene, bvh, ray) ? 1 : 0;
         projected += bvh.uses_projection(PreparedRay(ray, scene.bounds())) ? 1 : 0;
     }
-    EXPECT_GT(hits, rays / 2);
+    EXPECT_GT(hits, rays / 4);
     EXPECT_GT(projected, rays / 2);
 }
 

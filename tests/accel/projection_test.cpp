@@ -78,8 +78,8 @@ TEST(ViewPlanes, ChoosesThePlaneTheRayPierces) {
     }
 }
 
-// Points of a triangle that a ray from the point looks at lie in the footprint, wherever the triangle is: in front, behind,
-// across the view's plane, under the eye.
+// Points of a triangle that a ray from the point looks at lie in the footprint, wherever the triangle is: in front,
+// behind, across the view's plane, under the eye.
 TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
     Random random(3);
     for (int round = 0; round < 200; ++round) {
@@ -186,7 +186,8 @@ TEST(Footprint, AlongADirection) {
     }
 }
 
-// A ray that aims at the point with rounding, from float32 numbers: its points beyond the cut project into its rectangle.
+// A ray that aims at the point with rounding, from float32 numbers: its points beyond the cut project into its
+// rectangle.
 TEST(ProjectedRay, HoldsTheRayBeyondTheCut) {
     Random random(5);
     int taken = 0;
