@@ -77,7 +77,7 @@ TEST(BoxInterval, RespectsTheRaysInterval) {
     double near = 0.0;
     const Ray towards{{-5, 0, 0}, 0.0, {1, 0, 0}, infinity};
     EXPECT_TRUE(may_hit_box(PreparedRay(towards, unit_box()), unit_box(), infinity, near));
-    EXPECT_EQ(near, 4.0);
+    EXPECT_NEAR(near, 4.0, 1e-12);
     EXPECT_FALSE(may_hit_box(PreparedRay(towards, unit_box()), unit_box(), 3.9, near));
     const Ray beyond{{-5, 0, 0}, 6.5, {1, 0, 0}, infinity};
     EXPECT_FALSE(may_hit_box(PreparedRay(beyond, unit_box()), unit_box(), infinity, near));
