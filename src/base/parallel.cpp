@@ -91,8 +91,4 @@ void Parallel::for_blocks(std::uint64_t count, std::uint64_t grain,
     for_each(blocks, [&](std::uint64_t i) { body(i * block, std::min(count, (i + 1) * block)); });
 }
 
-void Parallel::invoke(const std::function<void()>& first, const std::function<void()>& second) const {
-    for_each(2, [&](std::uint64_t i) { i == 0 ? first() : second(); });
-}
-
 } // namespace raywise

@@ -23,9 +23,6 @@ public:
     void for_blocks(std::uint64_t count, std::uint64_t grain,
                     const std::function<void(std::uint64_t begin, std::uint64_t end)>& body) const;
 
-    // Runs both, at the same time where threads allow; for recursive builds.
-    void invoke(const std::function<void()>& first, const std::function<void()>& second) const;
-
     unsigned threads() const { return threads_; }
 
     // Threads this process may use: affinity and cgroup limits included.

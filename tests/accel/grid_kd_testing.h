@@ -265,6 +265,22 @@ inline Soup random_soup(std::size_t count, double triangle_size, std::uint64_t s
     return soup;
 }
 
+// Direction components so small that they have no inverse, or one that overflows times anything.
+template <class Structure>
+void expect_scan_answers_next_to_axes() {
+    World world(random_soup(500, 0.1, 35));
+    const Structure structure(world.input());
+    Dice dice(36);
+    for (int i = 0; i < 300; ++i) {
+        Ray ray{dice.in(world.bounds()), -unbounded, Vec3(0.0), unbounded};
+        const int axis = i % 3;
+        ray.direction[axis] = dice.below(2) == 0 ? 1.0 : -3.0;
+        ray.direction[(axis + 1) % 3] = dice.below(2) == 0 ? 5e-324 : -1e-310;
+        ray.direction[(axis + 2) % 3] = dice.below(2) == 0 ? 1e-300 : -0.0;
+        compare_with_windows(world, structure, ray);
+    }
+}
+
 // The faces of cubes with whole coordinates.
 inline Soup cubes(int n) {
     Soup soup;

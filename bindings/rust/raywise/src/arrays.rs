@@ -35,8 +35,26 @@ impl<'a> Borrowed<'a> {
     }
 }
 
-macro_rules! from_rows {
+// What the three kinds of borrowed numbers share: where they come from, and how many there are.
+macro_rules! borrowed_rows {
     ($to:ident, $bound:ident, $row:ty) => {
+        impl $to<'_> {
+            /// How many there are.
+            #[must_use]
+            pub fn len(&self) -> usize {
+                self.0.len
+            }
+
+            /// Whether there are none.
+            #[must_use]
+            pub fn is_empty(&self) -> bool {
+                self.0.len == 0
+            }
+
+            pub(crate) fn raw(&self) -> sys::rw_array {
+                self.0.raw
+            }
+        }
         impl<'a, T: $bound> From<&'a [$row]> for $to<'a> {
             fn from(rows: &'a [$row]) -> Self {
                 $to(Borrowed::packed::<T, $row>(rows))
@@ -63,7 +81,7 @@ macro_rules! from_rows {
 #[derive(Clone, Copy, Debug)]
 pub struct Vectors<'a>(Borrowed<'a>);
 
-from_rows!(Vectors, Float, [T; 3]);
+borrowed_rows!(Vectors, Float, [T; 3]);
 
 impl<'a> Vectors<'a> {
     /// Vectors amid other numbers, e.g. positions in a vertex buffer that holds normals and texture coordinates too:
@@ -104,71 +122,19 @@ impl<'a> Vectors<'a> {
         borrowed.len = len;
         Ok(Vectors(borrowed))
     }
-
-    /// How many vectors.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.0.len
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.len == 0
-    }
-
-    pub(crate) fn raw(&self) -> sys::rw_array {
-        self.0.raw
-    }
 }
 
 /// Corners of triangles: `&[[u32; 3]]` or `&[[u64; 3]]`. Nothing is copied.
 #[derive(Clone, Copy, Debug)]
 pub struct Indices<'a>(Borrowed<'a>);
 
-from_rows!(Indices, Index, [T; 3]);
-
-impl Indices<'_> {
-    /// How many triangles.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.0.len
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.len == 0
-    }
-
-    pub(crate) fn raw(&self) -> sys::rw_array {
-        self.0.raw
-    }
-}
+borrowed_rows!(Indices, Index, [T; 3]);
 
 /// One number per ray: `&[f32]` or `&[f64]`. Nothing is copied.
 #[derive(Clone, Copy, Debug)]
 pub struct Scalars<'a>(Borrowed<'a>);
 
-from_rows!(Scalars, Float, T);
-
-impl Scalars<'_> {
-    /// How many numbers.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.0.len
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.len == 0
-    }
-
-    pub(crate) fn raw(&self) -> sys::rw_array {
-        self.0.raw
-    }
-}
+borrowed_rows!(Scalars, Float, T);
 
 /// One value that stands for every ray. The caller keeps `value` where it is while the result is in use.
 pub(crate) fn repeated<const N: usize>(value: &[f64; N]) -> sys::rw_array {
