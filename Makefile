@@ -68,6 +68,13 @@ bindings: ## regenerate the Rust and Python declarations from the header
 	@tools/setup.sh bindings
 	build/venv/bin/python bindings/generate.py
 
+.PHONY: abi
+abi: ## keep the binary interface as the one of this release (CONTRIBUTING.md, Releases)
+	@tools/setup.sh native abi
+	cmake --preset dev
+	cmake --build --preset dev --target raywise
+	tools/abi.py write --library build/dev/capi/libraywise.so
+
 .PHONY: calibrate
 calibrate: build ## measure this machine [CALIBRATE_FLAGS=...]
 	build/prefix/bin/raywise-calibrate $(CALIBRATE_FLAGS)
