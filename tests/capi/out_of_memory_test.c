@@ -7,6 +7,7 @@
 
 #define RAYS 12
 #define TRIANGLES 60
+#define MOST (TRIANGLES + 4) /* hits of a ray */
 
 /* What is built. */
 typedef struct plan {
@@ -19,13 +20,14 @@ typedef struct plan {
 typedef struct answers {
     rw_hit single[RAYS];
     int32_t occluded[RAYS];
-    rw_hit all[TRIANGLES + 2];
+    rw_hit skipping;
+    rw_hit all[MOST];
     uint64_t all_count;
     double t[RAYS], normal[3 * RAYS];
     uint32_t primitive[RAYS];
     uint8_t flags[RAYS];
     uint64_t offsets[RAYS + 1];
-    float all_t[RAYS * (TRIANGLES + 2)];
+    float all_t[RAYS * MOST];
     rw_hit view_single[RAYS];
     double view_t[RAYS];
     uint64_t view_offsets[RAYS + 1];
@@ -60,6 +62,16 @@ static const char unchanged_text[] = "unchanged";
         }                                                                     \
         if (!check_that(status == RW_OK, #call, __FILE__, __LINE__)) exit(1); \
     } while (0)
+
+/* Outputs are all zero before the first call that writes them. */
+static int is_zero(const void *memory, size_t size) {
+    const unsigned char *bytes = (const unsigned char *)memory;
+    size_t i;
+    for (i = 0; i < size; ++i)
+        if (bytes[i] != 0) return 0;
+    return 1;
+}
+#define UNWRITTEN(output) is_zero(&(output), sizeof(output))
 
 static int is_open(const rw_scene *scene) {
     rw_scene_statistics statistics;
@@ -127,23 +139,32 @@ static void ask_scene(const rw_scene *scene, const rw_query_options *query, answ
     rw_output flags;
     uint64_t needed = 0;
     int i;
+    const rw_primitive_id skip = {RW_INVALID_ID, 0, 3};
+    rw_ray_options skipping;
+    memset(&skipping, 0, sizeof skipping);
+    skipping.struct_size = sizeof skipping;
+    skipping.skip = &skip;
+    skipping.skip_count = 1;
     for (i = 0; i < RAYS; ++i) {
-        CALL(rw_scene_intersect(scene, &rays_in[i], &a->single[i]), 1);
-        CALL(rw_scene_occluded(scene, &rays_in[i], &a->occluded[i]), 1);
+        CALL(rw_scene_intersect(scene, &rays_in[i], &a->single[i]), UNWRITTEN(a->single[i]));
+        CALL(rw_scene_occluded(scene, &rays_in[i], &a->occluded[i]), UNWRITTEN(a->occluded[i]));
     }
-    CALL(rw_scene_intersect_all(scene, &rays_in[0], a->all, TRIANGLES + 2, &a->all_count), 1);
+    CALL(rw_scene_intersect_with(scene, &rays_in[0], &skipping, &a->skipping), UNWRITTEN(a->skipping));
+    CALL(rw_scene_intersect_all(scene, &rays_in[0], a->all, MOST, &a->all_count),
+         UNWRITTEN(a->all) && UNWRITTEN(a->all_count));
     hits.normal.data = a->normal;
     hits.normal.type = RW_FLOAT64;
     hits.primitive.data = a->primitive;
-    CALL(rw_scene_intersect_batch(scene, &rays, &hits, query), 1);
+    CALL(rw_scene_intersect_batch(scene, &rays, &hits, query), UNWRITTEN(a->t) && UNWRITTEN(a->primitive));
     memset(&flags, 0, sizeof flags);
     flags.data = a->flags;
-    CALL(rw_scene_occluded_batch(scene, &rays, &flags, query), 1);
+    CALL(rw_scene_occluded_batch(scene, &rays, &flags, query), UNWRITTEN(a->flags));
     all.t.data = a->all_t;
     all.t.type = RW_FLOAT32;
-    CALL(rw_scene_intersect_all_batch(scene, &rays, a->offsets, &all, RAYS * (TRIANGLES + 2), &needed, query), 1);
+    CALL(rw_scene_intersect_all_batch(scene, &rays, a->offsets, &all, RAYS * MOST, &needed, query),
+         needed == 0 && UNWRITTEN(a->offsets) && UNWRITTEN(a->all_t));
     CHECK(needed == a->offsets[RAYS]);
-    CALL(rw_scene_bounds(scene, a->lower, a->upper), 1);
+    CALL(rw_scene_bounds(scene, a->lower, a->upper), UNWRITTEN(a->lower));
 }
 
 static void ask_view(const rw_scene *scene, const plan *p, const rw_commit_options *one_thread,
@@ -160,9 +181,11 @@ static void ask_view(const rw_scene *scene, const plan *p, const rw_commit_optio
     options.count = 1000000;
     options.structure = p->structure;
     CALL(rw_view_create(scene, &options, one_thread, &view), view == NULL);
-    for (i = 0; i < RAYS; ++i) CALL(rw_view_intersect(view, &rays_in[i], &a->view_single[i]), 1);
-    CALL(rw_view_intersect_batch(view, &rays, &hits, query), 1);
-    CALL(rw_view_intersect_all_batch(view, &rays, a->view_offsets, NULL, 0, &needed, query), 1);
+    for (i = 0; i < RAYS; ++i)
+        CALL(rw_view_intersect(view, &rays_in[i], &a->view_single[i]), UNWRITTEN(a->view_single[i]));
+    CALL(rw_view_intersect_batch(view, &rays, &hits, query), UNWRITTEN(a->view_t));
+    CALL(rw_view_intersect_all_batch(view, &rays, a->view_offsets, NULL, 0, &needed, query),
+         UNWRITTEN(a->view_offsets));
     CALL(rw_view_explain(view, RW_FORMAT_TEXT, NULL, 0, &needed), 1);
     CHECK_OK(rw_view_release(view));
 }
@@ -192,7 +215,7 @@ static void ask_once(const rw_profile *profile, const plan *p, const rw_query_op
     options.profile = profile;
     options.structure = p->structure;
     options.query = query;
-    CALL(rw_once_intersect(&mesh, 1, &rays, &hits, &options), 1);
+    CALL(rw_once_intersect(&mesh, 1, &rays, &hits, &options), UNWRITTEN(a->once_t));
 }
 
 static void program(const plan *p, answers *a) {
