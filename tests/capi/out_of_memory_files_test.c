@@ -1,8 +1,8 @@
 /* Mesh files and profiles with one allocation after the other refused. Reading a file says out of memory and nothing else: not
  * that the file is missing, damaged or of another machine; and what could not be learnt then is learnt later.
  *
- * Some things are learnt once for the whole process, so every attempt begins in a process of its own that has called nothing
- * yet; what stays in memory for good is let settle there by a second attempt before leaks are looked for. */
+ * Some things are learnt once for the whole process, so attempts begin in a process of their own that has called nothing
+ * yet; leaks are looked for where there were some already. */
 #include "testing.h"
 
 #include "refusing.h"
@@ -12,7 +12,12 @@
 #include <unistd.h>
 
 static char folder[] = "/tmp/raywise-memory-XXXXXX";
-static uint64_t *shared_result; /* what a child hands its parent */
+
+/* What processes share. */
+static struct shared_memory {
+    uint64_t result; /* of reading the file without refusals */
+    long refused;    /* by the latest child */
+} * shared;
 
 static const char *path_of(const char *name) {
     static char path[512];
@@ -59,11 +64,16 @@ static int32_t read_mesh(const char *name, uint64_t *sum) {
     return RW_OK;
 }
 
+/* The name of the profile that is found by the environment variable. */
+#define FOUND "found"
+
 /* Both a profile that is used and one that is passed over are results: the status counts as part of them. */
 static int32_t read_profile(const char *name, uint64_t *sum) {
     rw_profile *profile = NULL;
     rw_profile_info info;
-    const int32_t status = rw_profile_load(name == NULL ? NULL : path_of(name), &profile);
+    int32_t status;
+    setenv("RAYWISE_CALIBRATION", path_of("fitting.json"), 1);
+    status = rw_profile_load(strcmp(name, FOUND) == 0 ? NULL : path_of(name), &profile);
     if (status == RW_ERROR_OUT_OF_MEMORY) {
         CHECK(profile == NULL);
         return status;
@@ -80,66 +90,73 @@ static int32_t read_profile(const char *name, uint64_t *sum) {
 
 /* ---- refusing ------------------------------------------------------------------------------------- */
 
-/* In a process of its own: 1 when it went through all the checks and the attempt used more than `number` allocations, 0 when it
- * used no more, 2 when a check failed. */
-static int one_refusal(attempt read, const char *name, refusal which, long number, uint64_t wanted) {
+/* One attempt with refusals and one without. Tells how many were refused. */
+static long refused_and_repeated(attempt read, const char *name, refusal which, long number, uint64_t wanted) {
     uint64_t sum = 0, again = 0;
-    long refused, live;
-    int round;
-    for (round = 0; round < 3; ++round) {
-        int32_t status;
-        live = live_allocations();
-        refuse(which, number);
-        status = read(name, &sum);
-        refused = stop_refusing();
-        if (status == RW_OK) {
-            CHECK(sum == wanted); /* a refusal that did no harm */
-        } else {
-            CHECK_ERROR(status, RW_ERROR_OUT_OF_MEMORY, "memory");
-            CHECK(refused > 0);
-        }
-        if (round == 0 && refused == 0) return failures == 0 ? 0 : 2;
-        CHECK_OK(read(name, &again));
-        CHECK(again == wanted);
-        if (round == 2) CHECK(live_allocations() == live);
+    const int before = failures;
+    int32_t status;
+    long refused;
+    refuse(which, number);
+    status = read(name, &sum);
+    refused = stop_refusing();
+    if (status == RW_OK) {
+        CHECK(sum == wanted); /* a refusal that did no harm */
+    } else {
+        CHECK_ERROR(status, RW_ERROR_OUT_OF_MEMORY, "memory");
+        CHECK(refused > 0);
     }
-    if (failures != 0) fprintf(stderr, "    %s: allocation %ld refused\n", name == NULL ? "NULL" : name, number);
-    return failures == 0 ? 1 : 2;
+    CHECK_OK(read(name, &again));
+    CHECK(again == wanted);
+    if (failures != before) fprintf(stderr, "    allocation %ld refused\n", number);
+    return refused;
 }
 
-static int in_a_process(attempt read, const char *name, refusal which, long number, uint64_t wanted) {
-    int result = 0;
-    const pid_t child = fork();
-    if (child == 0) _exit(one_refusal(read, name, which, number, wanted));
-    if (child < 0 || waitpid(child, &result, 0) != child) exit(1);
-    return WIFEXITED(result) ? WEXITSTATUS(result) : 2;
+/* Runs body in a process of its own, which has called nothing yet, and takes over what failed there. */
+#define IN_A_PROCESS(body)                                                \
+    do {                                                                  \
+        const pid_t child = fork();                                       \
+        int end = 1;                                                      \
+        if (child == 0) {                                                 \
+            failures = 0;                                                 \
+            body;                                                         \
+            fflush(NULL);                                                 \
+            _exit(failures != 0);                                         \
+        }                                                                 \
+        if (child < 0 || waitpid(child, &end, 0) != child) exit(1);       \
+        check_that(end == 0, "a process of its own", __FILE__, __LINE__); \
+    } while (0)
+
+/* Every attempt is the first of its process. */
+static void refuse_each_at_first(attempt read, const char *name) {
+    long number;
+    shared->refused = 1;
+    for (number = 0; shared->refused > 0 && failures < 5; ++number)
+        IN_A_PROCESS(shared->refused = refused_and_repeated(read, name, REFUSE_ONE, number, shared->result));
+    CHECK(number > 3);
+    printf("%s, at first, one refused: %ld allocations\n", name, number - 1);
 }
 
-/* The result without refusals, learnt in a process of its own as well. */
-static uint64_t result_of(attempt read, const char *name) {
-    const pid_t child = fork();
-    int result = 1;
-    if (child == 0) _exit(read(name, shared_result) == RW_OK && failures == 0 ? 0 : 1);
-    if (child < 0 || waitpid(child, &result, 0) != child) exit(1);
-    CHECK(result == 0);
-    return *shared_result;
+/* All in one process: nothing is left behind. */
+static void refuse_each_later(attempt read, const char *name) {
+    refusal which;
+    for (which = REFUSE_ONE; which <= REFUSE_FROM_ON; ++which) {
+        long number, refused = 1;
+        refused_and_repeated(read, name, which, 5, shared->result); /* what stays for good is there from here on */
+        for (number = 0; refused > 0 && failures < 5; ++number) {
+            const long live = live_allocations();
+            refused = refused_and_repeated(read, name, which, number, shared->result);
+            CHECK(live_allocations() == live);
+        }
+        CHECK(number > 3);
+        printf("%s, later, %s: %ld allocations\n", name, which == REFUSE_ONE ? "one refused" : "refused from one on",
+               number - 1);
+    }
 }
 
 static void refuse_each(attempt read, const char *name) {
-    const char *shown = name == NULL ? "the profile found" : name;
-    const uint64_t wanted = result_of(read, name);
-    refusal which;
-    for (which = REFUSE_ONE; which <= REFUSE_FROM_ON; ++which) {
-        long number = 0;
-        int result = 1;
-        while (result != 0) {
-            result = in_a_process(read, name, which, number++, wanted);
-            if (!CHECK(result == 0 || result == 1)) result = number < 3 ? 1 : 0; /* a few examples are enough */
-        }
-        CHECK(number > 3);
-        printf("%s, %s: %ld allocations\n", shown, which == REFUSE_ONE ? "one refused" : "refused from one on",
-               number - 1);
-    }
+    IN_A_PROCESS(CHECK_OK(read(name, &shared->result)));
+    refuse_each_at_first(read, name);
+    IN_A_PROCESS(refuse_each_later(read, name));
 }
 
 /* ---- the files ------------------------------------------------------------------------------------ */
@@ -222,34 +239,25 @@ static void write_profiles(void) {
     exit(1);
 }
 
-static int in_the_environment(void) { return setenv("RAYWISE_CALIBRATION", path_of("fitting.json"), 1); }
-
 int main(void) {
     static const char *const meshes[] = {"square.obj", "square.off", "normals.off", "square.ply",
                                          "binary.ply", "text.stl",   "binary.stl"};
-    static const char *const profiles[] = {"fitting.json", "foreign.json", "broken.json", "missing.json"};
+    static const char *const others[] = {"foreign.json", "broken.json", "missing.json", FOUND};
     char command[600];
     size_t i;
-    pid_t child;
-    int result = 1;
     use_all_helpers();
     setvbuf(stdout, NULL, _IOLBF, 0); /* nothing is to be written twice by a child */
-    shared_result =
-        (uint64_t *)mmap(NULL, sizeof *shared_result, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if ((void *)shared_result == MAP_FAILED || mkdtemp(folder) == NULL) return 1;
+    shared =
+        (struct shared_memory *)mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if ((void *)shared == MAP_FAILED || mkdtemp(folder) == NULL) return 1;
     write_meshes();
-    child = fork();
-    if (child == 0) {
-        write_profiles();
-        _exit(failures);
-    }
-    if (child < 0 || waitpid(child, &result, 0) != child || !CHECK(result == 0)) return 1;
-
+    IN_A_PROCESS(write_profiles());
     for (i = 0; i < sizeof meshes / sizeof meshes[0]; ++i) refuse_each(read_mesh, meshes[i]);
-    for (i = 0; i < sizeof profiles / sizeof profiles[0]; ++i) refuse_each(read_profile, profiles[i]);
-    if (in_the_environment() != 0) return 1;
-    refuse_each(read_profile, NULL);
-
+    refuse_each(read_profile, "fitting.json");
+    for (i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        IN_A_PROCESS(CHECK_OK(read_profile(others[i], &shared->result)));
+        IN_A_PROCESS(refuse_each_later(read_profile, others[i]));
+    }
     snprintf(command, sizeof command, "rm -rf %s", folder);
     if (system(command) != 0) return 1;
     return finish("out of memory, files");

@@ -33,6 +33,7 @@ typedef struct answers {
     uint64_t view_offsets[RAYS + 1];
     double once_t[RAYS];
     double lower[3], upper[3];
+    char profile_text[8192];
 } answers;
 
 static soup some;                /* float32, indexed */
@@ -231,7 +232,8 @@ static void program(const plan *p, answers *a) {
     query.struct_size = sizeof query;
     one_thread.threads = query.threads = 1;
     CALL(rw_profile_load(NULL, &profile), profile == NULL);
-    CALL(rw_profile_text(profile, RW_FORMAT_JSON, NULL, 0, &needed), 1);
+    CALL(rw_profile_text(profile, RW_FORMAT_TEXT, a->profile_text, sizeof a->profile_text, &needed),
+         UNWRITTEN(a->profile_text));
     CALL(rw_scene_create(profile, &scene), scene == NULL);
     fill(scene);
     build(scene, p, &one_thread);

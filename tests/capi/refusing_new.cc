@@ -18,10 +18,23 @@ void* allocate(std::size_t size, std::size_t alignment) noexcept {
     return memory;
 }
 
+// As the standard wants it: the handler may find memory, or throw.
 void* allocate_or_throw(std::size_t size, std::size_t alignment) {
-    void* memory = allocate(size, alignment);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
+    for (;;) {
+        void* memory = allocate(size, alignment);
+        if (memory != nullptr) return memory;
+        const std::new_handler handler = std::get_new_handler();
+        if (handler == nullptr) throw std::bad_alloc();
+        handler();
+    }
+}
+
+void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
+    try {
+        return allocate_or_throw(size, alignment);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
 }
 
 void give_back(void* memory) noexcept {
@@ -39,13 +52,13 @@ EXPORTED void* operator new(Size size) { return allocate_or_throw(size, 1); }
 EXPORTED void* operator new[](Size size) { return allocate_or_throw(size, 1); }
 EXPORTED void* operator new(Size size, Align align) { return allocate_or_throw(size, static_cast<Size>(align)); }
 EXPORTED void* operator new[](Size size, Align align) { return allocate_or_throw(size, static_cast<Size>(align)); }
-EXPORTED void* operator new(Size size, NoThrow) noexcept { return allocate(size, 1); }
-EXPORTED void* operator new[](Size size, NoThrow) noexcept { return allocate(size, 1); }
+EXPORTED void* operator new(Size size, NoThrow) noexcept { return allocate_or_null(size, 1); }
+EXPORTED void* operator new[](Size size, NoThrow) noexcept { return allocate_or_null(size, 1); }
 EXPORTED void* operator new(Size size, Align align, NoThrow) noexcept {
-    return allocate(size, static_cast<Size>(align));
+    return allocate_or_null(size, static_cast<Size>(align));
 }
 EXPORTED void* operator new[](Size size, Align align, NoThrow) noexcept {
-    return allocate(size, static_cast<Size>(align));
+    return allocate_or_null(size, static_cast<Size>(align));
 }
 EXPORTED void operator delete(void* memory) noexcept { give_back(memory); }
 EXPORTED void operator delete[](void* memory) noexcept { give_back(memory); }
