@@ -29,8 +29,9 @@ std::vector<Ray> usual_rays(const Scene& mesh) {
     return rays;
 }
 
-// Exactly through corners and edges, where several triangles are met in one crossing: from outside, from there, along an
-// edge, and from corner to corner. The steps are whole multiples of a power of two, so that most meshes need no rounding.
+// Exactly through corners and edges, where several triangles are met in one crossing: from outside, from there, along
+// an edge, and from corner to corner. The steps are whole multiples of a power of two, so that most meshes need no
+// rounding.
 std::vector<Ray> seam_rays(const Scene& mesh) {
     std::vector<Ray> rays;
     for (const std::size_t triangle : {std::size_t{0}, mesh.triangles.size() / 2}) {

@@ -33,8 +33,8 @@
 //!
 //! * [`SceneBuilder`] is filled and committed; [`Scene`] is what comes out; [`View`] is a scene seen from one place.
 //! * [`RayQueries`] has the questions: closest hit, any hit, all hits, for one ray and for many.
-//! * [`RayOptions::skip`] and [`Rays::with_skip`] name triangles that single rays pass through, e.g. those they start on:
-//!   there are no epsilons.
+//! * [`RayOptions::skip`] and [`Rays::with_skip`] name triangles that single rays pass through, e.g. those they start
+//!   on: there are no epsilons.
 //! * [`OneShot`] answers one batch and keeps nothing.
 //! * [`Profile`] holds the constants that decide; [`RayQueries::candidates`] and [`RayQueries::explain`] tell how.
 //!

@@ -32,8 +32,8 @@ pub trait RayQueries: Asked {
         Ok(occluded != 0)
     }
 
-    /// Finds every hit of one ray, closest first. A surface that is crossed at an edge or a corner counts once; the first hit
-    /// is the one that [`intersect`](RayQueries::intersect) finds. Wraps `rw_scene_intersect_all`.
+    /// Finds every hit of one ray, closest first. A surface that is crossed at an edge or a corner counts once; the first
+    /// hit is the one that [`intersect`](RayQueries::intersect) finds. Wraps `rw_scene_intersect_all`.
     fn intersect_all(&self, ray: &Ray) -> Result<Vec<Hit>> {
         let ray = ray.raw();
         all_of_ray(|hits, capacity, needed| {
@@ -136,7 +136,8 @@ pub trait RayQueries: Asked {
         Ok(invalid_rays)
     }
 
-    /// Finds every hit of many rays; as [`intersect_all`](RayQueries::intersect_all) for each. Wraps `rw_scene_intersect_all_batch`.
+    /// Finds every hit of many rays; as [`intersect_all`](RayQueries::intersect_all) for each. Wraps
+    /// `rw_scene_intersect_all_batch`.
     fn intersect_all_batch(&self, rays: &Rays<'_>) -> Result<AllHits> {
         self.intersect_all_batch_with(rays, &QueryOptions::new())
     }

@@ -147,8 +147,8 @@ impl<'a> Rays<'a> {
     /// [`Status::INDEX_OUT_OF_RANGE`](crate::Status::INDEX_OUT_OF_RANGE).
     ///
     /// # Errors
-    /// [`Error::Length`] when there is not a list for each ray and an id for each of their entries, [`Error::Falling`] when
-    /// an offset is below the one before it.
+    /// [`Error::Length`] when there is not a list for each ray and an id for each of their entries, [`Error::Falling`]
+    /// when an offset is below the one before it.
     pub fn with_skip(mut self, skip: impl Into<SkipLists<'a>>) -> Result<Self> {
         let skip = skip.into();
         skip.check(self.count)?;

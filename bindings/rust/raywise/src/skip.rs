@@ -14,9 +14,9 @@ use crate::{AllHits, Error, Hits, PrimitiveId, Result};
 ///
 /// ```
 /// use raywise::{PrimitiveId, Ray, RayOptions, RayQueries, SceneBuilder};
-/// # let vertices = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
+/// # let triangle = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
 /// # let mut builder = SceneBuilder::new()?;
-/// # builder.add_triangles(&vertices, &[[0_u32, 1, 2], [3, 4, 5]])?;
+/// # builder.add_triangles(&[triangle(0.0), triangle(1.0)].concat(), &[[0_u32, 1, 2], [3, 4, 5]])?;
 /// # let scene = builder.commit()?;
 /// // On from where a ray has hit, without an epsilon: only the triangle it starts on is left out.
 /// let ray = Ray::new([0.2, 0.2, 3.0], [0.0, 0.0, -1.0]);
@@ -87,11 +87,12 @@ impl From<u32> for PerEntryId<'_> {
 
 each_from_rows!(PerEntryId, Ids, Index, T);
 
-/// Which triangles the rays of a batch pass through without a hit, in the caller's arrays (`rw_rays`). Nothing is copied.
+/// Which triangles the rays of a batch pass through without a hit, in the caller's arrays (`rw_rays`). Nothing is
+/// copied.
 ///
-/// Ids are as hits carry them, so that the answers to one batch can be the skip list of the next: `&Hits` and `&AllHits`
-/// are skip lists as they are. A primitive that is the greatest number of its type, as in the answer of a miss, stands
-/// for nothing.
+/// Ids are as hits carry them, so that the answers to one batch can be the skip list of the next: `&Hits` and
+/// `&AllHits` are skip lists as they are. A primitive that is the greatest number of its type, as in the answer of a
+/// miss, stands for nothing.
 ///
 /// ```
 /// use raywise::{Rays, SkipLists};
@@ -111,8 +112,8 @@ pub struct SkipLists<'a> {
 }
 
 impl<'a> SkipLists<'a> {
-    /// One triangle for each ray: a slice of `u32` or `u64` with one element per ray, or a single `u32` for all rays. Of
-    /// mesh 0, unless [`geometry`](SkipLists::geometry) says otherwise.
+    /// One triangle for each ray: a slice of `u32` or `u64` with one element per ray, or a single `u32` for all rays.
+    /// Of mesh 0, unless [`geometry`](SkipLists::geometry) says otherwise.
     #[must_use]
     pub fn each(primitive: impl Into<PerEntryId<'a>>) -> Self {
         SkipLists { offsets: None, geometry: PerEntryId::One([0]), primitive: primitive.into() }
@@ -125,15 +126,16 @@ impl<'a> SkipLists<'a> {
         SkipLists { offsets: Some(offsets), ..SkipLists::each(primitive) }
     }
 
-    /// Of which meshes the triangles are: a slice of `u32` or `u64` with one element per entry, or a single `u32` for all.
+    /// Of which meshes the triangles are: a slice of `u32` or `u64` with one element per entry, or a single `u32` for
+    /// all.
     #[must_use]
     pub fn geometry(mut self, geometry: impl Into<PerEntryId<'a>>) -> Self {
         self.geometry = geometry.into();
         self
     }
 
-    /// Whether there are lists for so many rays, and an id for each of their entries. The library does not know how long
-    /// the arrays are; it looks at what the ids name.
+    /// Whether there are lists for so many rays, and an id for each of their entries. The library does not know how
+    /// long the arrays are; it looks at what the ids name.
     pub(crate) fn check(&self, rays: usize) -> Result<()> {
         if let Some(offsets) = self.offsets {
             same_length("skip offsets", rays + 1, offsets.len())?;
