@@ -5,8 +5,8 @@
 #include "contract/raywise_library.h"
 #include "contract/run_cases.h"
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -55,8 +55,8 @@ std::vector<Family> wanted_families(const Options& options) {
     insist_on_known(options.families, names, "family");
     families.erase(std::remove_if(families.begin(), families.end(),
                                   [&](const Family& family) {
-                                      return std::find(options.families.begin(), options.families.end(),
-                                                       family.name) == options.families.end();
+                                      return std::find(options.families.begin(), options.families.end(), family.name) ==
+                                             options.families.end();
                                   }),
                    families.end());
     return families;

@@ -108,9 +108,7 @@ using Rays = std::vector<Ray>;
 
 Ray from(const Vec3& origin, const Vec3& direction) { return {origin, 0.0, direction, infinity}; }
 
-bool lies_before(const Vec3& a, const Vec3& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
+bool lies_before(const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 struct ByPosition {
     bool operator()(const Vec3& a, const Vec3& b) const { return lies_before(a, b); }
     bool operator()(const std::pair<Vec3, Vec3>& a, const std::pair<Vec3, Vec3>& b) const {
