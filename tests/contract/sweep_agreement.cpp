@@ -84,6 +84,7 @@ public:
         const bool float32 = random_.one_in(4);
         const Asked asked = make_rays(scene_, reference, random_, float32);
         count_.rays = asked.rays.size();
+        for (const rw_hit& hit : asked.closest) count_.hits += is_hit(hit) ? 1 : 0;
         check_reference(reference, asked);
         for (const Subject& subject : subjects) {
             const std::size_t step = step_of(subject);
@@ -179,12 +180,20 @@ private:
 
 void AgreementCount::add(const AgreementCount& other) {
     rays += other.rays;
+    hits += other.hits;
     comparisons += other.comparisons;
     disagreements += other.disagreements;
     judge_rays += other.judge_rays;
     judge_disagreements += other.judge_disagreements;
     seconds += other.seconds;
     faults.insert(faults.end(), other.faults.begin(), other.faults.end());
+}
+
+double AgreementCount::share() const {
+    constexpr double least_per_comparison = 1e-6; // seconds; about the quickest answer of a scene that is hit
+    constexpr double without_hits = 30.0;
+    const double least = least_per_comparison * static_cast<double>(comparisons);
+    return std::max(seconds, hits * 20 < rays ? without_hits * least : least);
 }
 
 AgreementScene::AgreementScene(SweepScene scene, std::size_t index, std::uint64_t seed)

@@ -14,6 +14,7 @@ namespace raywise::contract {
 // What one block of rays, or all of a scene's, came to.
 struct AgreementCount {
     std::uint64_t rays = 0;
+    std::uint64_t hits = 0;          // rays that hit something
     std::uint64_t comparisons = 0;   // one ray's answer by one subject, compared with the reference's
     std::uint64_t disagreements = 0; // comparisons that found a difference
     std::uint64_t judge_rays = 0;
@@ -22,6 +23,9 @@ struct AgreementCount {
     std::vector<std::string> faults; // with everything it takes to see one again
 
     void add(const AgreementCount& other);
+    // What the block is reckoned with when time is shared out: answers of scenes that are hardly ever hit take next to no
+    // time, and prove as little.
+    double share() const;
 };
 
 class AgreementScene {

@@ -123,7 +123,7 @@ void sweep(const std::string& name, std::vector<std::unique_ptr<Scene>>& scenes,
         const std::lock_guard<std::mutex> lock(mutex);
         rows[part].count.add(count);
         done += answers_of(count);
-        return count.seconds;
+        return count.share();
     };
     if (options.block) {
         for (std::size_t part = 0; part < scenes.size(); ++part) run_block(part, *options.block);

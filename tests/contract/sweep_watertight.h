@@ -21,6 +21,7 @@ struct WatertightCount {
     std::vector<std::string> faults;
 
     void add(const WatertightCount& other);
+    double share() const { return seconds; } // what the block is reckoned with when time is shared out
 };
 
 class WatertightScene {
