@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 Json empty_part() { return {{"rows", Json::array()}, {"summary", Json::object()}}; }
 
@@ -63,4 +63,4 @@ void write_json(const std::filesystem::path& path, const Json& json) {
     std::filesystem::rename(unfinished, path);
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 // Keeps the order in which members were put in.
 using Json = nlohmann::ordered_json;
@@ -36,4 +36,4 @@ std::string date_text();
 Json read_json(const std::filesystem::path& path);
 void write_json(const std::filesystem::path& path, const Json& json);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <exception>
 
 int main(int argc, char** argv) {
-    using namespace raywise::contract;
+    using namespace raywise::sweep;
     CLI::App app("Puts the parts of a desk target's report together.");
     app.name("contract_report");
     ReportHead head;

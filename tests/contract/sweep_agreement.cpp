@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr std::size_t rays_per_block = 2048;
@@ -216,4 +216,4 @@ AgreementCount AgreementScene::run(std::uint64_t block) {
     return count;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

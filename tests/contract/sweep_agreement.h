@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 // What one block of rays, or all of a scene's, came to.
 struct AgreementCount {
@@ -52,4 +52,4 @@ private:
     std::unique_ptr<const Built> built_;
 };
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -152,4 +152,4 @@ std::vector<InsidePoint> inside_points(const oracle::Scene& mesh, std::size_t wa
     return points;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -40,4 +40,4 @@ struct InsidePoint {
 // Points with a winding number other than 0, the middle of the box first when it is one; may find none.
 std::vector<InsidePoint> inside_points(const oracle::Scene& mesh, std::size_t wanted, Random& random);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -149,4 +149,4 @@ std::vector<ClosedScene> closed_scenes(std::uint64_t most_triangles, bool real) 
     return scenes;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

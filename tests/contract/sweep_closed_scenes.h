@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct ClosedScene {
     oracle::Scene mesh; // welded
@@ -29,4 +29,4 @@ std::vector<ClosedScene> closed_scenes(std::uint64_t most_triangles, bool real);
 // Finds out all about a mesh that has to be closed; throws std::runtime_error when it is not, or has no inside.
 ClosedScene closed_scene(oracle::Scene mesh);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 // rw_hit has no padding: its bytes are its answer.
@@ -86,4 +86,4 @@ std::vector<Difference> compare_first(const std::vector<rw_hit>& closest, const 
     return differences;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

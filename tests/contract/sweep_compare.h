@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 // A ray on which two answers differ.
 struct Difference {
@@ -28,4 +28,4 @@ bool is_hit(const rw_hit& hit);
 std::string text_of(const rw_ray& ray);
 std::string text_of(const rw_hit& hit);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

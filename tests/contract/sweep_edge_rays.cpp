@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 double neighbour(double x, Random& random) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -19,9 +19,9 @@ double neighbour(double x, Random& random) {
 namespace {
 
 Vec3 neighbour(const Vec3& p, Random& random) {
-    const double x = contract::neighbour(p.x, random);
-    const double y = contract::neighbour(p.y, random);
-    return {x, y, contract::neighbour(p.z, random)};
+    const double x = sweep::neighbour(p.x, random);
+    const double y = sweep::neighbour(p.y, random);
+    return {x, y, sweep::neighbour(p.z, random)};
 }
 
 } // namespace
@@ -64,4 +64,4 @@ rw_ray EdgeRayMaker::from_outside() {
     return ray_of(origin, at - origin);
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

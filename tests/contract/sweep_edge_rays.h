@@ -4,7 +4,7 @@
 #include "contract/sweep_closed_scenes.h"
 #include "raywise/raywise.h"
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 class EdgeRayMaker {
 public:
@@ -29,4 +29,4 @@ private:
 // A number moved by one unit in its last place, up or down or not at all.
 double neighbour(double x, Random& random);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct Releaser {
     void operator()(rw_scene* scene) const { rw_scene_release(scene); }
@@ -29,4 +29,4 @@ Struct sized() {
     return made;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr std::size_t padding = 5; // bytes; odd, so that alignment is lost at once
@@ -68,4 +68,4 @@ LaidOutMesh::LaidOutMesh(const oracle::Scene& mesh, const MeshLayout& layout) {
     }
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

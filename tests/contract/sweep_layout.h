@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct MeshLayout {
     bool float32 = false;      // only where every coordinate is a float32 number
@@ -27,4 +27,4 @@ private:
     rw_triangles triangles_ = sized<rw_triangles>();
 };
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

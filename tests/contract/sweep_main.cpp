@@ -16,7 +16,7 @@
 #include <mutex>
 #include <optional>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr int exit_wrong = 1;       // a disagreement, a leak, a wrong number of crossings, a judge's objection
@@ -113,7 +113,7 @@ private:
 
 // Runs blocks of scenes until so many answers are there. Row: has a `count` that Scene::run's result can be added to.
 template <class Scene, class Row, class AnswersOf>
-void sweep(const std::string& name, std::vector<std::unique_ptr<Scene>>& scenes, std::vector<Row>& rows,
+void run_blocks(const std::string& name, std::vector<std::unique_ptr<Scene>>& scenes, std::vector<Row>& rows,
            std::uint64_t wanted, const Options& options, FaultTeller& teller, AnswersOf answers_of) {
     std::mutex mutex;
     std::atomic<std::uint64_t> done{0};
@@ -152,7 +152,7 @@ void sweep_agreement(const Options& options, SweepResult& result, FaultTeller& t
         result.agreement.push_back({scene.family, scene.mesh.name, scene.mesh.triangles.size(), {}});
         scenes.push_back(std::make_unique<AgreementScene>(std::move(scene), index, options.seed));
     }
-    sweep("agreement", scenes, result.agreement, options.comparisons, options, teller,
+    run_blocks("agreement", scenes, result.agreement, options.comparisons, options, teller,
           [](const AgreementCount& count) { return count.comparisons; });
 }
 
@@ -164,7 +164,7 @@ void sweep_watertightness(const Options& options, SweepResult& result, FaultTell
         result.watertight.push_back({scene.mesh.name, scene.mesh.triangles.size(), scene.convex, {}});
         scenes.push_back(std::make_unique<WatertightScene>(std::move(scene), options.seed));
     }
-    sweep("watertightness", scenes, result.watertight, options.edge_rays, options, teller,
+    run_blocks("watertightness", scenes, result.watertight, options.edge_rays, options, teller,
           [](const WatertightCount& count) { return count.rays; });
 }
 
@@ -207,13 +207,13 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace raywise::contract
+} // namespace raywise::sweep
 
 int main(int argc, char** argv) {
     try {
-        return raywise::contract::run(argc, argv);
+        return raywise::sweep::run(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "contract_sweep: %s\n", error.what());
-        return raywise::contract::exit_incomplete;
+        return raywise::sweep::exit_incomplete;
     }
 }

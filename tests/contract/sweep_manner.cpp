@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 void backwards(void*, std::uint64_t count, rw_task task, void* task_data) {
@@ -239,4 +239,4 @@ void ask_all(const Subject& subject, const std::vector<rw_ray>& rays, const Mann
     }
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

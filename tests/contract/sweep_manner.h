@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct Manner {
     enum class Call { batch, host_batch, single }; // host: with a parallel-for of the caller's, which runs backwards
@@ -39,4 +39,4 @@ void ask_any(const Subject& subject, const std::vector<rw_ray>& rays, const Mann
              std::vector<std::uint8_t>& hit);
 void ask_all(const Subject& subject, const std::vector<rw_ray>& rays, const Manner& manner, AllHits& all);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <random>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 class Random {
 public:
@@ -51,4 +51,4 @@ private:
     std::mt19937_64 engine_;
 };
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

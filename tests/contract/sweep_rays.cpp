@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -253,4 +253,4 @@ rw_ray RayMaker::from_hit(const rw_ray& ray, const rw_hit& hit) {
     }
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 rw_ray ray_of(const Vec3& origin, const Vec3& direction);
 Vec3 origin_of(const rw_ray& ray);
@@ -55,4 +55,4 @@ private:
 // Rounds all numbers of a ray to float32.
 rw_ray rounded_to_float32(const rw_ray& ray);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -3,7 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 // Faults kept in the report; the counts tell of all.
@@ -134,4 +134,4 @@ Json part_of(const SweepResult& result) {
     return part;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

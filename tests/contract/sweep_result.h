@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct AgreementRow {
     std::string family;
@@ -43,4 +43,4 @@ struct SweepResult {
 std::string table_of(const SweepResult& result);
 Json part_of(const SweepResult& result);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

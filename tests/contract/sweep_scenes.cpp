@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 bool is_float32(const Vec3& v) {
@@ -79,4 +79,4 @@ std::vector<SweepScene> sweep_scenes(const SceneChoice& choice) {
     return scenes;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct SweepScene {
     std::string family;
@@ -34,4 +34,4 @@ std::vector<SweepScene> sweep_scenes(const SceneChoice& choice);
 // Fills in all but the family and the mesh.
 SweepScene with_views(std::string family, oracle::Scene mesh);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

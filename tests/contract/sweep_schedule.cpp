@@ -8,7 +8,7 @@
 #include <exception>
 #include <thread>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 TimeShares::Turn TimeShares::take() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -66,4 +66,4 @@ void run_phase(const Phase& phase, unsigned threads, const std::atomic<bool>& st
     if (failure) std::rethrow_exception(failure);
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 class TimeShares {
 public:
@@ -44,4 +44,4 @@ struct Phase {
 // Runs blocks on so many threads until the phase is done or `stop` is set; throws what a block has thrown. Shows progress.
 void run_phase(const Phase& phase, unsigned threads, const std::atomic<bool>& stop, bool quiet);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr const char* reference_structure = "bvh";
@@ -134,4 +134,4 @@ std::vector<Subject> subjects_of(const SweepScene& scene, const Subject& referen
     return subjects;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 class Subject {
 public:
@@ -64,4 +64,4 @@ Subject reference_of(const SweepScene& scene);
 // each structure that projects, and one on another structure. index: of the scene, so that layouts take turns.
 std::vector<Subject> subjects_of(const SweepScene& scene, const Subject& reference, std::size_t index);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 namespace {
 
 constexpr std::size_t rays_per_block = 8192;
@@ -140,4 +140,4 @@ WatertightCount WatertightScene::run(std::uint64_t block) {
     return count;
 }
 
-} // namespace raywise::contract
+} // namespace raywise::sweep

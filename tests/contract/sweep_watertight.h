@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace raywise::contract {
+namespace raywise::sweep {
 
 struct WatertightCount {
     std::uint64_t rays = 0;        // at edges and vertices from inside, each asked for the closest and for any hit
@@ -47,4 +47,4 @@ private:
 // even from outside.
 bool crossings_are_right(std::uint64_t crossings, bool from_inside, bool odd, bool convex);
 
-} // namespace raywise::contract
+} // namespace raywise::sweep
