@@ -12,8 +12,8 @@ namespace raywise::sweep {
 Json empty_part() { return {{"rows", Json::array()}, {"summary", Json::object()}}; }
 
 Json merged_report(const ReportHead& head, const std::vector<Json>& parts) {
-    Json report = {{"target", head.target}, {"machine", head.machine}, {"commit", head.commit},
-                   {"date", head.date},     {"command", head.command}, {"rows", Json::array()},
+    Json report = {{"target", head.target},    {"machine", head.machine}, {"commit", head.commit},
+                   {"date", head.date},        {"command", head.command}, {"rows", Json::array()},
                    {"summary", Json::object()}};
     for (const Json& part : parts) {
         if (!part.is_object() || !part.contains("rows") || !part.at("rows").is_array() || !part.contains("summary") ||
@@ -21,7 +21,8 @@ Json merged_report(const ReportHead& head, const std::vector<Json>& parts) {
             throw std::runtime_error("a part of a report is an object of an array \"rows\" and an object \"summary\"");
         for (const Json& row : part.at("rows")) report["rows"].push_back(row);
         for (const auto& [key, value] : part.at("summary").items()) {
-            if (report["summary"].contains(key)) throw std::runtime_error("two parts have a summary of \"" + key + "\"");
+            if (report["summary"].contains(key))
+                throw std::runtime_error("two parts have a summary of \"" + key + "\"");
             report["summary"][key] = value;
         }
     }

@@ -102,8 +102,8 @@ private:
     std::size_t step_of(const Subject& subject) const {
         if (!subject.scans()) return 1;
         const std::uint64_t tests = rays_per_block * scene_.mesh.triangles.size();
-        return static_cast<std::size_t>(std::min<std::uint64_t>((tests + scan_budget - 1) / scan_budget, rays_per_block) +
-                                        (tests == 0 ? 1 : 0));
+        return static_cast<std::size_t>(
+            std::min<std::uint64_t>((tests + scan_budget - 1) / scan_budget, rays_per_block) + (tests == 0 ? 1 : 0));
     }
 
     // All hits of the reference, for the share of rays that are asked for them; and whether it agrees with itself.
@@ -178,6 +178,14 @@ private:
 
 } // namespace
 
+AgreementCount agreement_block(const SweepScene& scene, const Subject& reference, const std::vector<Subject>& subjects,
+                               std::uint64_t seed, std::uint64_t block) {
+    const Clock::time_point start = Clock::now();
+    AgreementCount count = Block(scene, seed, block).run(reference, subjects);
+    count.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return count;
+}
+
 void AgreementCount::add(const AgreementCount& other) {
     rays += other.rays;
     hits += other.hits;
@@ -210,10 +218,7 @@ const AgreementScene::Built& AgreementScene::built() {
 
 AgreementCount AgreementScene::run(std::uint64_t block) {
     const Built& ready = built();
-    const Clock::time_point start = Clock::now();
-    AgreementCount count = Block(scene_, seed_, block).run(ready.reference, ready.subjects);
-    count.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    return count;
+    return agreement_block(scene_, ready.reference, ready.subjects, seed_, block);
 }
 
 } // namespace raywise::sweep

@@ -28,14 +28,17 @@ struct AgreementCount {
     double share() const;
 };
 
+// One block of a scene: its rays and the manners of asking depend on seed, scene and block alone.
+AgreementCount agreement_block(const SweepScene& scene, const Subject& reference, const std::vector<Subject>& subjects,
+                               std::uint64_t seed, std::uint64_t block);
+
 class AgreementScene {
 public:
     AgreementScene(SweepScene scene, std::size_t index, std::uint64_t seed);
 
     const SweepScene& scene() const { return scene_; }
 
-    // The block's rays and manners depend on seed, scene and block alone. The structures are built by the first call. Any
-    // number of threads may call.
+    // The structures are built by the first call. Any number of threads may call.
     AgreementCount run(std::uint64_t block);
 
 private:

@@ -25,8 +25,8 @@ int side_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto e = from_a(b);
     const auto f = from_a(c);
     const auto g = from_a(d);
-    const Fraction volume = g[0] * (e[1] * f[2] - e[2] * f[1]) + g[1] * (e[2] * f[0] - e[0] * f[2]) +
-                            g[2] * (e[0] * f[1] - e[1] * f[0]);
+    const Fraction volume =
+        g[0] * (e[1] * f[2] - e[2] * f[1]) + g[1] * (e[2] * f[0] - e[0] * f[2]) + g[2] * (e[0] * f[1] - e[1] * f[0]);
     return volume.sign();
 }
 

@@ -70,7 +70,8 @@ std::vector<Difference> compare_all(const AllHits& wanted, const AllHits& answer
         for (std::uint64_t k = 0; same && k < count; ++k)
             same = same_bits(wanted.hits[wanted.offsets[i] + k], answers.hits[answers.offsets[i] + k]);
         if (same) continue;
-        differences.push_back({i, "all hits\n    wanted  " + list_of(wanted, i) + "\n    answer  " + list_of(answers, i)});
+        differences.push_back(
+            {i, "all hits\n    wanted  " + list_of(wanted, i) + "\n    answer  " + list_of(answers, i)});
     }
     return differences;
 }

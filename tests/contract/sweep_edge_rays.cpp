@@ -10,9 +10,12 @@ namespace raywise::sweep {
 double neighbour(double x, Random& random) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     switch (random.below(3)) {
-    case 0: return std::nextafter(x, -infinity);
-    case 1: return std::nextafter(x, infinity);
-    default: return x;
+        case 0:
+            return std::nextafter(x, -infinity);
+        case 1:
+            return std::nextafter(x, infinity);
+        default:
+            return x;
     }
 }
 
@@ -32,8 +35,7 @@ Vec3 EdgeRayMaker::on_edge() {
     const Edge& edge = scene_.edges[random_.below(scene_.edges.size())];
     const Vec3& a = scene_.mesh.vertices[edge.first];
     const Vec3& b = scene_.mesh.vertices[edge.second];
-    const double part =
-        random_.one_in(2) ? 0.25 * static_cast<double>(1 + random_.below(3)) : random_.number(0.0, 1.0);
+    const double part = random_.one_in(2) ? 0.25 * static_cast<double>(1 + random_.below(3)) : random_.number(0.0, 1.0);
     return (1.0 - part) * a + part * b;
 }
 

@@ -19,9 +19,9 @@
 namespace raywise::sweep {
 namespace {
 
-constexpr int exit_wrong = 1;       // a disagreement, a leak, a wrong number of crossings, a judge's objection
-constexpr int exit_usage = 2;       // the command line
-constexpr int exit_incomplete = 3;  // less was done than was asked for
+constexpr int exit_wrong = 1;      // a disagreement, a leak, a wrong number of crossings, a judge's objection
+constexpr int exit_usage = 2;      // the command line
+constexpr int exit_incomplete = 3; // less was done than was asked for
 constexpr int exit_interrupted = 130;
 
 struct Options {
@@ -89,10 +89,11 @@ void add_options(CLI::App& app, Options& options) {
         app.add_option("--only", options.only, "run one scene or mesh, by the name in the table")->type_name("NAME");
     app.add_option("--block", options.block, "run one block of it, to see a fault again")->type_name("K")->needs(only);
     app.add_flag("--quiet,-q", options.quiet, "no progress");
-    app.footer("Every block of rays depends on the seed, its scene and its number alone; how many blocks a scene gets\n"
-               "depends on time. A fault names its block: --only NAME --block K runs it again.\n"
-               "Exit codes: 0 all agree; 1 a disagreement, a leak, a wrong number of crossings; 2 usage;\n"
-               "3 fewer comparisons than asked for; 130 interrupted (the report tells what was done).\n");
+    app.footer(
+        "Every block of rays depends on the seed, its scene and its number alone; how many blocks a scene gets\n"
+        "depends on time. A fault names its block: --only NAME --block K runs it again.\n"
+        "Exit codes: 0 all agree; 1 a disagreement, a leak, a wrong number of crossings; 2 usage;\n"
+        "3 fewer comparisons than asked for; 130 interrupted (the report tells what was done).\n");
 }
 
 // Faults are told when they are found: a long run is not to be waited for.
@@ -114,7 +115,7 @@ private:
 // Runs blocks of scenes until so many answers are there. Row: has a `count` that Scene::run's result can be added to.
 template <class Scene, class Row, class AnswersOf>
 void run_blocks(const std::string& name, std::vector<std::unique_ptr<Scene>>& scenes, std::vector<Row>& rows,
-           std::uint64_t wanted, const Options& options, FaultTeller& teller, AnswersOf answers_of) {
+                std::uint64_t wanted, const Options& options, FaultTeller& teller, AnswersOf answers_of) {
     std::mutex mutex;
     std::atomic<std::uint64_t> done{0};
     const auto run_block = [&](std::size_t part, std::uint64_t block) {
@@ -153,7 +154,7 @@ void sweep_agreement(const Options& options, SweepResult& result, FaultTeller& t
         scenes.push_back(std::make_unique<AgreementScene>(std::move(scene), index, options.seed));
     }
     run_blocks("agreement", scenes, result.agreement, options.comparisons, options, teller,
-          [](const AgreementCount& count) { return count.comparisons; });
+               [](const AgreementCount& count) { return count.comparisons; });
 }
 
 void sweep_watertightness(const Options& options, SweepResult& result, FaultTeller& teller) {
@@ -165,12 +166,13 @@ void sweep_watertightness(const Options& options, SweepResult& result, FaultTell
         scenes.push_back(std::make_unique<WatertightScene>(std::move(scene), options.seed));
     }
     run_blocks("watertightness", scenes, result.watertight, options.edge_rays, options, teller,
-          [](const WatertightCount& count) { return count.rays; });
+               [](const WatertightCount& count) { return count.rays; });
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Compares the answers of every structure, view, call, order and number of threads bit for bit, and looks\n"
-                 "for rays that slip through closed meshes.");
+    CLI::App app(
+        "Compares the answers of every structure, view, call, order and number of threads bit for bit, and looks\n"
+        "for rays that slip through closed meshes.");
     app.name("contract_sweep");
     app.get_formatter()->column_width(30);
     Options options;

@@ -37,9 +37,15 @@ public:
         }
         rays_.count = rays.size();
         switch (manner.layout) {
-        case Manner::Layout::records: describe_records(*source); break;
-        case Manner::Layout::arrays: describe_arrays(*source, numbers64_, RW_FLOAT64); break;
-        case Manner::Layout::float32: describe_arrays(*source, numbers32_, RW_FLOAT32); break;
+            case Manner::Layout::records:
+                describe_records(*source);
+                break;
+            case Manner::Layout::arrays:
+                describe_arrays(*source, numbers64_, RW_FLOAT64);
+                break;
+            case Manner::Layout::float32:
+                describe_arrays(*source, numbers32_, RW_FLOAT32);
+                break;
         }
     }
     Arranged(const Arranged&) = delete;
@@ -163,9 +169,7 @@ Manner random_manner(Random& random, bool float32) {
     Manner manner;
     manner.shuffle = random.bits();
     const std::uint64_t call = random.below(8);
-    manner.call = call == 0   ? Manner::Call::single
-                  : call == 1 ? Manner::Call::host_batch
-                              : Manner::Call::batch;
+    manner.call = call == 0 ? Manner::Call::single : call == 1 ? Manner::Call::host_batch : Manner::Call::batch;
     manner.order = static_cast<Manner::Order>(random.below(3));
     manner.layout = static_cast<Manner::Layout>(random.below(float32 ? 3 : 2));
     // The sweep runs blocks side by side already: more threads inside each are for variety.

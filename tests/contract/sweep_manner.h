@@ -11,9 +11,21 @@
 namespace raywise::sweep {
 
 struct Manner {
-    enum class Call { batch, host_batch, single }; // host: with a parallel-for of the caller's, which runs backwards
-    enum class Order { as_made, reversed, shuffled };
-    enum class Layout { records, arrays, float32 }; // float32: only for rays of float32 numbers
+    enum class Call {
+        batch,
+        host_batch,
+        single
+    }; // host: with a parallel-for of the caller's, which runs backwards
+    enum class Order {
+        as_made,
+        reversed,
+        shuffled
+    };
+    enum class Layout {
+        records,
+        arrays,
+        float32
+    }; // float32: only for rays of float32 numbers
     Call call = Call::batch;
     Order order = Order::as_made;
     Layout layout = Layout::records;

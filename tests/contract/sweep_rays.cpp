@@ -16,9 +16,9 @@ struct Sort {
 };
 
 constexpr Sort sorts[] = {
-    {30, &RayMaker::chord},      {20, &RayMaker::camera},      {8, &RayMaker::from_light},  {6, &RayMaker::along_sun},
-    {8, &RayMaker::along_axis},  {6, &RayMaker::at_vertex},    {6, &RayMaker::at_edge},     {6, &RayMaker::on_surface},
-    {3, &RayMaker::along_edge},  {3, &RayMaker::far_or_long},  {3, &RayMaker::nearly_axis}, {1, &RayMaker::bad},
+    {40, &RayMaker::chord},     {32, &RayMaker::camera},     {8, &RayMaker::from_light},  {6, &RayMaker::along_sun},
+    {8, &RayMaker::along_axis}, {6, &RayMaker::at_vertex},   {6, &RayMaker::at_edge},     {6, &RayMaker::on_surface},
+    {3, &RayMaker::along_edge}, {3, &RayMaker::far_or_long}, {3, &RayMaker::nearly_axis}, {1, &RayMaker::bad},
 };
 
 Vec3 scaled_by_power_of_two(Vec3 v, int exponent) {
@@ -67,10 +67,17 @@ rw_ray RayMaker::ordinary_or_hard() {
 // An interval that begins before the origin, or ends or begins somewhere on the way.
 void RayMaker::maybe_limit(rw_ray& ray) {
     switch (random_.below(12)) {
-    case 0: ray.tmin = -infinity; break;
-    case 1: ray.tmax = random_.number(0.0, 2.0); break;
-    case 2: ray.tmin = random_.number(-1.0, 1.0); break;
-    default: break;
+        case 0:
+            ray.tmin = -infinity;
+            break;
+        case 1:
+            ray.tmax = random_.number(0.0, 2.0);
+            break;
+        case 2:
+            ray.tmin = random_.number(-1.0, 1.0);
+            break;
+        default:
+            break;
     }
 }
 
@@ -87,8 +94,7 @@ Vec3 RayMaker::on_an_edge() {
     const Vec3& a = c[first];
     const Vec3& b = c[(first + 1) % 3];
     // Quarters are mostly free of rounding; any other part is off the edge by about a rounding.
-    const double part =
-        random_.one_in(2) ? 0.25 * static_cast<double>(1 + random_.below(3)) : random_.number(0.0, 1.0);
+    const double part = random_.one_in(2) ? 0.25 * static_cast<double>(1 + random_.below(3)) : random_.number(0.0, 1.0);
     return (1.0 - part) * a + part * b;
 }
 
@@ -113,15 +119,16 @@ Vec3 RayMaker::exactly_around(const Vec3& p) {
 
 rw_ray RayMaker::towards(const Vec3& target) {
     switch (random_.below(4)) {
-    case 0: return ray_of(scene_.eye, target - scene_.eye);
-    case 1: {
-        const Vec3 origin = on_sphere();
-        return ray_of(origin, target - origin);
-    }
-    default: {
-        const Vec3 origin = exactly_around(target);
-        return ray_of(origin, target - origin);
-    }
+        case 0:
+            return ray_of(scene_.eye, target - scene_.eye);
+        case 1: {
+            const Vec3 origin = on_sphere();
+            return ray_of(origin, target - origin);
+        }
+        default: {
+            const Vec3 origin = exactly_around(target);
+            return ray_of(origin, target - origin);
+        }
     }
 }
 
@@ -176,10 +183,17 @@ rw_ray RayMaker::along_edge() {
     const Vec3 edge = c[1] - c[0];
     rw_ray ray = ray_of(c[0], edge);
     switch (random_.below(4)) {
-    case 0: break;
-    case 1: ray = ray_of(c[0] - edge, edge); break;
-    case 2: ray = ray_of(c[2] - 2.0 * edge, edge); break;
-    default: ray = ray_of(0.5 * c[1] + 0.5 * c[2], edge + 0x1p-30 * scene_.radius * random_.in_cube()); break;
+        case 0:
+            break;
+        case 1:
+            ray = ray_of(c[0] - edge, edge);
+            break;
+        case 2:
+            ray = ray_of(c[2] - 2.0 * edge, edge);
+            break;
+        default:
+            ray = ray_of(0.5 * c[1] + 0.5 * c[2], edge + 0x1p-30 * scene_.radius * random_.in_cube());
+            break;
     }
     return ray;
 }
@@ -212,17 +226,25 @@ rw_ray RayMaker::bad() {
     const double wrong = random_.one_in(2) ? nan : random_.one_in(2) ? infinity : -infinity;
     const std::uint64_t axis = random_.below(3);
     switch (random_.below(6)) {
-    case 0: ray.origin[axis] = wrong; break;
-    case 1: ray.direction[axis] = wrong; break;
-    case 2: ray.tmin = nan; break;
-    case 3: ray.tmax = nan; break;
-    case 4:
-        ray.tmin = 1.0;
-        ray.tmax = 0.5;
-        break;
-    default:
-        for (double& component : ray.direction) component = random_.one_in(2) ? 0.0 : -0.0;
-        break;
+        case 0:
+            ray.origin[axis] = wrong;
+            break;
+        case 1:
+            ray.direction[axis] = wrong;
+            break;
+        case 2:
+            ray.tmin = nan;
+            break;
+        case 3:
+            ray.tmax = nan;
+            break;
+        case 4:
+            ray.tmin = 1.0;
+            ray.tmax = 0.5;
+            break;
+        default:
+            for (double& component : ray.direction) component = random_.one_in(2) ? 0.0 : -0.0;
+            break;
     }
     return ray;
 }
@@ -233,23 +255,30 @@ rw_ray RayMaker::from_hit(const rw_ray& ray, const rw_hit& hit) {
     const double ends[] = {hit.t, std::nextafter(hit.t, -infinity), std::nextafter(hit.t, infinity)};
     const double end = ends[random_.below(3)];
     switch (random_.below(8)) {
-    case 0: limited.tmax = end; return limited;
-    case 1: limited.tmin = end; return limited;
-    case 2: limited.tmin = limited.tmax = end; return limited;
-    case 3:
-    case 4: {
-        rw_ray shadow = ray_of(point, scene_.light - point);
-        shadow.tmax = 1.0;
-        return shadow;
-    }
-    case 5: return ray_of(point, random_.one_in(2) ? scene_.sun : -scene_.sun);
-    default: {
-        // A point of the unit sphere on top of the surface: the cosine distribution.
-        const Vec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
-        const Vec3 facing = glm::dot(normal, direction_of(ray)) > 0.0 ? -normal : normal;
-        const Vec3 direction = facing + random_.direction();
-        return ray_of(point, direction == Vec3(0.0) ? facing : direction);
-    }
+        case 0:
+            limited.tmax = end;
+            return limited;
+        case 1:
+            limited.tmin = end;
+            return limited;
+        case 2:
+            limited.tmin = limited.tmax = end;
+            return limited;
+        case 3:
+        case 4: {
+            rw_ray shadow = ray_of(point, scene_.light - point);
+            shadow.tmax = 1.0;
+            return shadow;
+        }
+        case 5:
+            return ray_of(point, random_.one_in(2) ? scene_.sun : -scene_.sun);
+        default: {
+            // A point of the unit sphere on top of the surface: the cosine distribution.
+            const Vec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
+            const Vec3 facing = glm::dot(normal, direction_of(ray)) > 0.0 ? -normal : normal;
+            const Vec3 direction = facing + random_.direction();
+            return ray_of(point, direction == Vec3(0.0) ? facing : direction);
+        }
     }
 }
 

@@ -22,8 +22,8 @@ __attribute__((format(printf, 2, 3))) void add_line(std::string& text, const cha
 unsigned long long number(std::uint64_t x) { return x; }
 
 void agreement_lines(std::string& text, const SweepResult& result) {
-    add_line(text, "%-34s %9s %11s %11s %12s %9s %7s", "agreement: scene", "triangles", "rays", "hits",
-             "comparisons", "differing", "seconds");
+    add_line(text, "%-34s %9s %11s %11s %12s %9s %7s", "agreement: scene", "triangles", "rays", "hits", "comparisons",
+             "differing", "seconds");
     for (const AgreementRow& row : result.agreement) {
         add_line(text, "%-34.34s %9llu %11llu %11llu %12llu %9llu %7.1f", row.name.c_str(), number(row.triangles),
                  number(row.count.rays), number(row.count.hits), number(row.count.comparisons),
@@ -32,8 +32,8 @@ void agreement_lines(std::string& text, const SweepResult& result) {
     const AgreementCount total = result.agreement_total();
     add_line(text, "%-34s %9s %11llu %11llu %12llu %9llu %7.1f", "all", "", number(total.rays), number(total.hits),
              number(total.comparisons), number(total.disagreements), total.seconds);
-    add_line(text, "%-34s %9s %11llu %11s %12s %9llu", "of these before the exact judge", "", number(total.judge_rays), "", "",
-             number(total.judge_disagreements));
+    add_line(text, "%-34s %9s %11llu %11s %12s %9llu", "of these before the exact judge", "", number(total.judge_rays),
+             "", "", number(total.judge_disagreements));
 }
 
 void watertight_lines(std::string& text, const SweepResult& result) {

@@ -102,6 +102,14 @@ bool crossings_are_right(std::uint64_t crossings, bool from_inside, bool odd, bo
     return convex ? crossings == 1 : (crossings % 2 == 1) == odd;
 }
 
+WatertightCount watertight_block(const ClosedScene& scene, const Subject& subject, std::uint64_t seed,
+                                 std::uint64_t block) {
+    const Clock::time_point start = Clock::now();
+    WatertightCount count = Block(scene, subject, seed, block).run();
+    count.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return count;
+}
+
 void WatertightCount::add(const WatertightCount& other) {
     rays += other.rays;
     leaks += other.leaks;
@@ -134,10 +142,7 @@ const std::vector<Subject>& WatertightScene::built() {
 
 WatertightCount WatertightScene::run(std::uint64_t block) {
     const std::vector<Subject>& subjects = built();
-    const Clock::time_point start = Clock::now();
-    WatertightCount count = Block(scene_, subjects[block % subjects.size()], seed_, block).run();
-    count.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    return count;
+    return watertight_block(scene_, subjects[block % subjects.size()], seed_, block);
 }
 
 } // namespace raywise::sweep

@@ -24,6 +24,10 @@ struct WatertightCount {
     double share() const { return seconds; } // what the block is reckoned with when time is shared out
 };
 
+// One block of a mesh: its rays depend on seed, mesh and block alone.
+WatertightCount watertight_block(const ClosedScene& scene, const Subject& subject, std::uint64_t seed,
+                                 std::uint64_t block);
+
 class WatertightScene {
 public:
     WatertightScene(ClosedScene scene, std::uint64_t seed);
