@@ -16,7 +16,7 @@ constexpr std::size_t rays_per_block = 2048;
 // Ray-triangle tests that a linear scan may take for one block's closest hits: about a tenth of the block's time.
 constexpr std::uint64_t scan_budget = 300000;
 // Of so many rays one is asked for all hits.
-constexpr std::size_t all_step = 8;
+constexpr std::size_t all_step = 16;
 // The judge reckons in integers of any length: some thousand times slower than the library.
 constexpr std::size_t judge_most_triangles = 200;
 constexpr std::uint64_t judge_every_blocks = 16;
@@ -199,7 +199,7 @@ void AgreementCount::add(const AgreementCount& other) {
 
 double AgreementCount::share() const {
     constexpr double least_per_comparison = 1e-6; // seconds; about the quickest answer of a scene that is hit
-    constexpr double without_hits = 30.0;
+    constexpr double without_hits = 100.0;
     const double least = least_per_comparison * static_cast<double>(comparisons);
     return std::max(seconds, hits * 20 < rays ? without_hits * least : least);
 }

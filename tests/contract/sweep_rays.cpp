@@ -16,7 +16,7 @@ struct Sort {
 };
 
 constexpr Sort sorts[] = {
-    {40, &RayMaker::chord},     {32, &RayMaker::camera},     {8, &RayMaker::from_light},  {6, &RayMaker::along_sun},
+    {60, &RayMaker::chord},     {50, &RayMaker::camera},     {8, &RayMaker::from_light},  {6, &RayMaker::along_sun},
     {8, &RayMaker::along_axis}, {6, &RayMaker::at_vertex},   {6, &RayMaker::at_edge},     {6, &RayMaker::on_surface},
     {3, &RayMaker::along_edge}, {3, &RayMaker::far_or_long}, {3, &RayMaker::nearly_axis}, {1, &RayMaker::bad},
 };

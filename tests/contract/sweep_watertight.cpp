@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t rays_per_block = 8192;
 // Rays of a block that are asked for all hits as well, and as many from outside.
-constexpr std::size_t parity_rays = 512;
+constexpr std::size_t parity_rays = 256;
 constexpr std::size_t most_faults = 5;
 // A linear scan takes part where it is about as fast as the others.
 constexpr std::size_t scan_most_triangles = 100;
