@@ -19,8 +19,9 @@ struct Answers {
 };
 Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities);
 
-// What is wrong with them, whatever is expected: any, all and closest are about the same hits. Empty: nothing.
-std::string disagreement(const Answers& answers, double t_tolerance);
+// What is wrong with them, whatever is expected: any, all and closest are about the same hits. Empty: nothing. `question`
+// receives which of them is in doubt: "closest", "any" or "all".
+std::string disagreement(const Answers& answers, double t_tolerance, const char*& question);
 
 enum class Verdict {
     met,

@@ -80,11 +80,11 @@ std::string fault_in_refusal(const ExpandedCase& expanded) {
     return "nothing in the meshes is " + kind;
 }
 
-void check_case(const Family& family, const Case& source, std::vector<std::string>& faults) {
+void check_case(const Family& family, const Case& source, std::uint64_t sweep_factor, std::vector<std::string>& faults) {
     const auto place = [&](int line) { return family.file + ":" + std::to_string(line) + ": "; };
     ExpandedCase expanded;
     try {
-        expanded = expand(source, 1);
+        expanded = expand(source, sweep_factor);
     } catch (const MeshFileAbsent&) {
         return; // nothing to look at on this machine
     }
@@ -113,10 +113,10 @@ void check_case(const Family& family, const Case& source, std::vector<std::strin
 
 } // namespace
 
-std::vector<std::string> faults_of(const std::vector<Family>& families) {
+std::vector<std::string> faults_of(const std::vector<Family>& families, std::uint64_t sweep_factor) {
     std::vector<std::string> faults;
     for (const Family& family : families) {
-        for (const Case& source : family.cases) check_case(family, source, faults);
+        for (const Case& source : family.cases) check_case(family, source, sweep_factor, faults);
     }
     return faults;
 }

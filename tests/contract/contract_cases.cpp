@@ -90,8 +90,8 @@ void list(const std::vector<Family>& families) {
     }
 }
 
-bool files_are_sound(const std::vector<Family>& families) {
-    const std::vector<std::string> faults = faults_of(families);
+bool files_are_sound(const std::vector<Family>& families, std::uint64_t sweep_factor) {
+    const std::vector<std::string> faults = faults_of(families, sweep_factor);
     for (const std::string& fault : faults) std::printf("%s\n", fault.c_str());
     std::size_t cases = 0;
     for (const Family& family : families) cases += family.cases.size();
@@ -158,7 +158,7 @@ int run(int argc, char** argv) {
         list(families);
         return 0;
     }
-    if (options.check) return files_are_sound(families) ? 0 : 1;
+    if (options.check) return files_are_sound(families, options.sweep_factor) ? 0 : 1;
     if (!options.export_file.empty()) {
         write(options.export_file, export_of(families, options.sweep_factor));
         return 0;
