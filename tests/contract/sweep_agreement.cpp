@@ -19,7 +19,7 @@ constexpr std::uint64_t scan_budget = 300000;
 constexpr std::size_t all_step = 16;
 // The judge reckons in integers of any length: some thousand times slower than the library.
 constexpr std::size_t judge_most_triangles = 200;
-constexpr std::uint64_t judge_every_blocks = 16;
+constexpr std::uint64_t judge_every_blocks = 4;
 constexpr std::size_t judge_rays = 16;
 // Faults told in full, per block.
 constexpr std::size_t most_faults = 5;
@@ -40,12 +40,6 @@ struct Asked {
         return some;
     }
 };
-
-std::uint64_t hash_of(const std::string& text) {
-    std::uint64_t hash = 1469598103934665603u; // FNV-1a: std::hash differs between libraries
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return hash;
-}
 
 // Two passes: rays that need no answers, then rays made from the first ones' hits.
 Asked make_rays(const SweepScene& scene, const Subject& reference, Random& random, bool float32) {

@@ -19,7 +19,8 @@
 namespace raywise::sweep {
 namespace {
 
-constexpr int exit_wrong = 1;      // a disagreement, a leak, a wrong number of crossings, a judge's objection
+constexpr int exit_wrong =
+    1; // a disagreement, a leak, a wrong number of crossings, the judge's objection, a failed call
 constexpr int exit_usage = 2;      // the command line
 constexpr int exit_incomplete = 3; // less was done than was asked for
 constexpr int exit_interrupted = 130;
@@ -216,6 +217,6 @@ int main(int argc, char** argv) {
         return raywise::sweep::run(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "contract_sweep: %s\n", error.what());
-        return raywise::sweep::exit_incomplete;
+        return raywise::sweep::exit_wrong;
     }
 }

@@ -7,8 +7,16 @@
 #include <cstdint>
 #include <initializer_list>
 #include <random>
+#include <string>
 
 namespace raywise::sweep {
+
+// Of a name, to seed with: FNV-1a, as std::hash differs between libraries.
+inline std::uint64_t hash_of(const std::string& text) {
+    std::uint64_t hash = 1469598103934665603u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return hash;
+}
 
 class Random {
 public:

@@ -26,7 +26,7 @@ public:
           subject_(subject),
           seed_(seed),
           block_(block),
-          random_{seed, scene.mesh.triangles.size(), scene.edges.size(), block},
+          random_{seed, hash_of(scene.mesh.name), block},
           maker_(scene, random_) {}
 
     WatertightCount run() {
