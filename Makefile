@@ -11,7 +11,7 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS
 
 CALIBRATE_FLAGS ?=
 
@@ -62,6 +62,11 @@ bench: ## build the benchmarks, into build/bench
 	@tools/setup.sh bench
 	cmake --preset bench
 	cmake --build --preset bench
+
+.PHONY: contract
+contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]
+	@tools/setup.sh native
+	@tools/contract.sh
 
 .PHONY: bindings
 bindings: ## regenerate the Rust and Python declarations from the header
