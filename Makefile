@@ -48,7 +48,7 @@ test-asan: ## C and C++ tests with the address and undefined behaviour sanitizer
 	@tools/test.sh asan-ubsan
 
 .PHONY: test-tsan
-test-tsan: ## tests of threads with the thread sanitizer
+test-tsan: ## C and C++ tests with the thread sanitizer
 	@tools/setup.sh native
 	@tools/test.sh tsan
 
