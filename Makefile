@@ -11,7 +11,7 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK
 
 CALIBRATE_FLAGS ?=
 
@@ -58,10 +58,9 @@ coverage: ## which lines the C and C++ tests run; pages in build/coverage/report
 	@tools/coverage.sh
 
 .PHONY: bench
-bench: ## build the benchmarks, into build/bench
+bench: ## build and run the benchmarks; reports in build/reports [QUICK=1]
 	@tools/setup.sh bench
-	cmake --preset bench
-	cmake --build --preset bench
+	@tools/bench.sh
 
 .PHONY: bindings
 bindings: ## regenerate the Rust and Python declarations from the header
