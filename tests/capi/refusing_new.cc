@@ -1,6 +1,7 @@
 // operator new and its family, which can refuse. Under a sanitizer, whose malloc is behind them.
 #include "refusing.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 
