@@ -33,7 +33,7 @@ struct Ray {
 // geometry/triangle_test.h) and the slab distances of boxes the ray meets within the scene are too, so a test that errs
 // by `margin` towards visiting can never lose a hit that another structure finds.
 //
-// Components of the direction below 2^-500 of the largest count as zero: their products with coordinates would leave the range
+// Components of the direction below 2^-500 of the largest (rounded down to a power of two) count as zero: their products with coordinates would leave the range
 // of float64, and with them exactness; 1 / direction stays finite or is infinite for a true zero.
 class PreparedRay {
 public:
