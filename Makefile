@@ -11,7 +11,7 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS SEED
 
 CALIBRATE_FLAGS ?=
 
@@ -51,6 +51,11 @@ test-asan: ## C and C++ tests with the address and undefined behaviour sanitizer
 test-tsan: ## tests of threads with the thread sanitizer
 	@tools/setup.sh native
 	@tools/test.sh tsan
+
+.PHONY: fuzz
+fuzz: ## all fuzzers, each for so long [SECONDS=60] [SEED=N]
+	@tools/setup.sh fuzz
+	@env -u SECONDS FUZZ_SECONDS=$(or $(SECONDS),60) tools/fuzz.sh
 
 .PHONY: coverage
 coverage: ## which lines the C and C++ tests run; pages in build/coverage/report

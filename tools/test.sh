@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # tools/test.sh          all tests: the dev preset under ctest (C, C++, examples, Rust and Python), then the
-#                        tests of threads under the thread sanitizer. Ends with the closing line of every
-#                        runner, so that nobody has to take ctest's word for the languages behind it.
-# tools/test.sh PRESET   configure, build and test one preset: asan-ubsan, tsan, coverage
+#                        tests of threads under the thread sanitizer, then every fuzzer for a short while.
+#                        Ends with the closing line of every runner, so that nobody has to take ctest's
+#                        word for the languages behind it.
+# tools/test.sh PRESET   configure, build and test one preset: asan-ubsan, tsan, fuzz, coverage
 #
 # TEST_FLAGS in the environment goes to ctest, e.g. TEST_FLAGS='-R grid'; JOBS is how many run at a time.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -119,6 +120,8 @@ summary() {
     if [[ ${#flags[@]} -eq 0 ]]; then
         printf '\nThreads (ctest, preset tsan)\n'
         report_ctest tsan
+        printf '\nFuzzers, a short while each (ctest, preset fuzz)\n'
+        report_ctest fuzz
     fi
 }
 
@@ -129,11 +132,14 @@ test_everything() {
     empty_logs
     run_ctest dev || failures+=("ctest, preset dev")
 
-    # A selection is somebody at work on one thing: no thread sanitizer for them; there is make test-tsan.
+    # A selection is somebody at work on one thing: no other presets for them; there are make test-tsan and make fuzz.
     if [[ ${#flags[@]} -eq 0 ]]; then
-        configure tsan
-        build tsan
-        run_ctest tsan || failures+=("ctest, preset tsan")
+        local preset
+        for preset in tsan fuzz; do
+            configure "$preset"
+            build "$preset"
+            run_ctest "$preset" || failures+=("ctest, preset $preset")
+        done
     fi
 
     summary
