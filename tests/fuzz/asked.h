@@ -25,15 +25,26 @@ public:
     const std::string& name() const { return name_; }
     Usage* usage() const { return usage_; } // null: nobody counts
 
-    std::int32_t intersect(const rw_ray* ray, rw_hit* hit) const {
-        return view_ != nullptr ? rw_view_intersect(view_, ray, hit) : rw_scene_intersect(scene_, ray, hit);
+    // options NULL: by the functions that take none.
+    std::int32_t intersect(const rw_ray* ray, const rw_ray_options* options, rw_hit* hit) const {
+        if (options == nullptr)
+            return view_ != nullptr ? rw_view_intersect(view_, ray, hit) : rw_scene_intersect(scene_, ray, hit);
+        return view_ != nullptr ? rw_view_intersect_with(view_, ray, options, hit)
+                                : rw_scene_intersect_with(scene_, ray, options, hit);
     }
-    std::int32_t occluded(const rw_ray* ray, std::int32_t* answer) const {
-        return view_ != nullptr ? rw_view_occluded(view_, ray, answer) : rw_scene_occluded(scene_, ray, answer);
+    std::int32_t occluded(const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer) const {
+        if (options == nullptr)
+            return view_ != nullptr ? rw_view_occluded(view_, ray, answer) : rw_scene_occluded(scene_, ray, answer);
+        return view_ != nullptr ? rw_view_occluded_with(view_, ray, options, answer)
+                                : rw_scene_occluded_with(scene_, ray, options, answer);
     }
-    std::int32_t intersect_all(const rw_ray* ray, rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) const {
-        return view_ != nullptr ? rw_view_intersect_all(view_, ray, hits, capacity, needed)
-                                : rw_scene_intersect_all(scene_, ray, hits, capacity, needed);
+    std::int32_t intersect_all(const rw_ray* ray, const rw_ray_options* options, rw_hit* hits, std::uint64_t capacity,
+                               std::uint64_t* needed) const {
+        if (options == nullptr)
+            return view_ != nullptr ? rw_view_intersect_all(view_, ray, hits, capacity, needed)
+                                    : rw_scene_intersect_all(scene_, ray, hits, capacity, needed);
+        return view_ != nullptr ? rw_view_intersect_all_with(view_, ray, options, hits, capacity, needed)
+                                : rw_scene_intersect_all_with(scene_, ray, options, hits, capacity, needed);
     }
     std::int32_t intersect_batch(const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) const {
         return view_ != nullptr ? rw_view_intersect_batch(view_, rays, hits, options)

@@ -4,11 +4,19 @@
 #include "fuzz/failure.h"
 #include "fuzz/input.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
 
 namespace raywise::fuzz {
+
+// What an older program passes for a struct that has grown since.
+template <class T>
+inline constexpr std::uint32_t oldest_size = sizeof(T);
+template <>
+inline constexpr std::uint32_t oldest_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
 
 template <class T>
 class CallerStruct {
@@ -16,12 +24,14 @@ public:
     // The size that fits, or, now and then, one of a newer program or a wrong one.
     CallerStruct(Input& input, const T& value) {
         std::uint32_t size = sizeof(T);
-        if (input.one_in(32)) {
+        if (oldest_size<T> < sizeof(T) && input.one_in(8)) {
+            size = oldest_size<T>;
+        } else if (input.one_in(32)) {
             static constexpr std::uint32_t odd[] = {sizeof(T) + 8, sizeof(T) + 24, sizeof(T) + 24, 0,          4,
                                                     sizeof(T) - 1, sizeof(T) - 8,  4097,           0xFFFFFFFFu};
             size = input.pick(odd);
         }
-        is_wrong_ = size < sizeof(T) || size > 4096;
+        is_wrong_ = (size < sizeof(T) && size != oldest_size<T>) || size > 4096;
         fill(size, value);
         if (size > sizeof(T) && !is_wrong_ && input.one_in(3)) { // sets a member this version does not know
             bytes_.back() = 1;
@@ -37,7 +47,7 @@ public:
     T* get() { return reinterpret_cast<T*>(bytes_.data()); }
     const T* get() const { return reinterpret_cast<const T*>(bytes_.data()); }
     bool is_wrong() const { return is_wrong_; }
-    std::uint32_t size() const { return size_; }
+    bool is_of_an_older_program() const { return size_ == oldest_size<T> && size_ < sizeof(T); }
 
     bool is_unchanged() const { return bytes_ == before_; }
     // For results: the size and whatever comes behind the known members stay as they are.

@@ -28,15 +28,18 @@ bool same_bits(const rw_hit& a, const rw_hit& b) { return std::memcmp(&a, &b, si
         found.normal[1], found.normal[2], found.geometry, found.primitive);
 }
 
-void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const std::vector<rw_hit>& wanted) {
+void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const Skips& skips,
+             const std::vector<rw_hit>& wanted) {
+    const rw_ray_options skipping = options_of(skips);
+    const rw_ray_options* options = skips.empty() && input.one_in(2) ? nullptr : &skipping;
     const rw_hit closest = wanted.empty() ? miss() : wanted.front();
     rw_hit hit;
     std::memset(&hit, blank, sizeof hit);
-    Outcome("intersect").check(asked.intersect(&ray, &hit));
+    Outcome("intersect").check(asked.intersect(&ray, options, &hit));
     if (!same_bits(hit, closest)) disagree(asked, "closest hit", ray, closest, hit);
 
     std::int32_t occluded = 77;
-    Outcome("occluded").check(asked.occluded(&ray, &occluded));
+    Outcome("occluded").check(asked.occluded(&ray, options, &occluded));
     if (occluded != (wanted.empty() ? 0 : 1))
         disagree(asked, occluded != 0 ? "any hit (yes)" : "any hit (no)", ray, closest, hit);
 
@@ -49,7 +52,7 @@ void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const std::vec
     std::uint64_t needed = 77;
     Outcome("intersect_all")
         .fails_if(wanted.size() > capacity, RW_ERROR_CAPACITY)
-        .check(asked.intersect_all(&ray, hits.data(), capacity, &needed));
+        .check(asked.intersect_all(&ray, options, hits.data(), capacity, &needed));
     if (needed != wanted.size()) {
         describe(ray);
         fail("%s: the judge finds %zu hits, it finds %llu", asked.name().c_str(), wanted.size(),
@@ -180,8 +183,10 @@ bool check_batch(const char* call, const Outcome& arguments, const Query& query,
 
 void ask_single(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
     rw_ray ray = make_ray(input, reference.meshes());
-    std::vector<rw_hit> wanted = reference.all(ray);
-    for (const Asked& each : asked) ask_ray(input, each, ray, wanted);
+    Skips skips;
+    if (input.one_in(3)) skips = make_skips(input, reference.meshes());
+    std::vector<rw_hit> wanted = reference.all(ray, skips);
+    for (const Asked& each : asked) ask_ray(input, each, ray, skips, wanted);
     if (wanted.empty() || !input.one_in(2)) return;
     // The interval ends exactly at a hit, or one step beside it.
     const double t = wanted[input.below(wanted.size())].t;
@@ -193,17 +198,21 @@ void ask_single(Input& input, const Reference& reference, const std::vector<Aske
     } else {
         ray.tmax = limit;
     }
-    wanted = reference.all(ray);
-    for (const Asked& each : asked) ask_ray(input, each, ray, wanted);
+    // Sometimes the ray goes on behind what it met first.
+    if (input.one_in(3)) skips.push_back({RW_INVALID_ID, wanted.front().geometry, wanted.front().primitive});
+    wanted = reference.all(ray, skips);
+    for (const Asked& each : asked) ask_ray(input, each, ray, skips, wanted);
 }
 
 void ask_intersect_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
     const RayBatch batch(input, reference.meshes());
     HitOutputs outputs(input, batch.rays().size());
     Outcome arguments = batch.outcome();
+    arguments.add(batch.skip_outcome());
     arguments.add(outputs.outcome());
     if (!arguments.must_fail()) {
-        for (std::size_t i = 0; i < batch.rays().size(); ++i) outputs.expect(i, reference.closest(batch.rays()[i]));
+        for (std::size_t i = 0; i < batch.rays().size(); ++i)
+            outputs.expect(i, reference.closest(batch.rays()[i], batch.skips(i)));
     }
     for (const Asked& each : asked) {
         Query query(input);
@@ -229,12 +238,13 @@ void ask_occluded_batch(Input& input, const Reference& reference, const std::vec
     const bool absent = input.one_in(32);
     if (absent) output = OutputArray();
     Outcome arguments = batch.outcome();
+    arguments.add(batch.skip_outcome());
     arguments.fails_if(output.is_wrong(), RW_ERROR_INVALID_ARGUMENT)
         .may_fail_if(output.may_be_refused() || absent, RW_ERROR_INVALID_ARGUMENT)
         .fails_if(absent && !batch.rays().empty(), RW_ERROR_INVALID_ARGUMENT);
     if (!arguments.must_fail()) {
         for (std::size_t i = 0; i < batch.rays().size(); ++i)
-            output.expect_flag(i, !reference.all(batch.rays()[i]).empty());
+            output.expect_flag(i, !reference.all(batch.rays()[i], batch.skips(i)).empty());
     }
     for (const Asked& each : asked) {
         Query query(input);
@@ -256,10 +266,11 @@ void ask_occluded_batch(Input& input, const Reference& reference, const std::vec
 void ask_all_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
     const RayBatch batch(input, reference.meshes());
     Outcome arguments = batch.outcome();
+    arguments.add(batch.skip_outcome());
     std::vector<std::vector<rw_hit>> wanted;
     std::vector<std::uint64_t> offsets = {0};
-    for (const rw_ray& ray : batch.rays()) {
-        wanted.push_back(reference.all(ray));
+    for (std::size_t i = 0; i < batch.rays().size(); ++i) {
+        wanted.push_back(reference.all(batch.rays()[i], batch.skips(i)));
         offsets.push_back(offsets.back() + wanted.back().size());
     }
     const std::uint64_t total = offsets.back();
@@ -353,7 +364,7 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
     arguments.may_fail_if(o.memory_limit != 0, RW_ERROR_MEMORY_LIMIT);
     o.query = query.get();
     const CallerStruct<rw_once_options> options(input, o);
-    arguments.fails_if(options.is_wrong(), RW_ERROR_INVALID_ARGUMENT).add(batch.outcome());
+    arguments.fails_if(options.is_wrong(), RW_ERROR_INVALID_ARGUMENT).add(batch.outcome()).add(batch.skip_outcome());
     const auto* first = structs.empty() ? nullptr : reinterpret_cast<const rw_triangles*>(structs.data());
     const auto mesh_count = static_cast<std::uint32_t>(meshes.size());
 
@@ -362,7 +373,8 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
         HitOutputs outputs(input, batch.rays().size());
         arguments.add(outputs.outcome());
         if (!arguments.must_fail()) {
-            for (std::size_t i = 0; i < batch.rays().size(); ++i) outputs.expect(i, judge.closest(batch.rays()[i]));
+            for (std::size_t i = 0; i < batch.rays().size(); ++i)
+                outputs.expect(i, judge.closest(batch.rays()[i], batch.skips(i)));
         }
         answered = check_batch("once_intersect", arguments, query,
                                rw_once_intersect(first, mesh_count, batch.get(), outputs.get(), options.get()));
@@ -376,7 +388,7 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
             .may_fail_if(output.may_be_refused(), RW_ERROR_INVALID_ARGUMENT);
         if (!arguments.must_fail()) {
             for (std::size_t i = 0; i < batch.rays().size(); ++i)
-                output.expect_flag(i, !judge.all(batch.rays()[i]).empty());
+                output.expect_flag(i, !judge.all(batch.rays()[i], batch.skips(i)).empty());
         }
         answered = check_batch("once_occluded", arguments, query,
                                rw_once_occluded(first, mesh_count, batch.get(), &output.output(), options.get()));

@@ -76,6 +76,19 @@ rw_ray make_ray(Input& input, const std::vector<std::shared_ptr<Mesh>>& meshes) 
     return ray;
 }
 
+Skips make_skips(Input& input, const std::vector<std::shared_ptr<Mesh>>& meshes) {
+    Skips skips;
+    for (std::size_t left = input.below(4); left > 0 && !meshes.empty(); --left) {
+        const auto geometry = static_cast<std::uint32_t>(input.below(meshes.size()));
+        const std::uint64_t triangles = meshes[geometry]->triangle_count();
+        const bool nothing = triangles == 0 || input.one_in(4);
+        skips.push_back(
+            {RW_INVALID_ID, geometry,
+             nothing ? RW_INVALID_ID : static_cast<std::uint32_t>(input.below(static_cast<std::size_t>(triangles)))});
+    }
+    return skips;
+}
+
 bool has_nan(const rw_ray& ray) {
     bool found = std::isnan(ray.tmin) || std::isnan(ray.tmax);
     for (int axis = 0; axis < 3; ++axis)
@@ -112,8 +125,14 @@ RayBatch::RayBatch(Input& input, const std::vector<std::shared_ptr<Mesh>>& meshe
         rays_.push_back(ray);
     }
 
+    skips_.resize(count);
+    if (input.one_in(3)) make_skip_arrays(input, meshes);
+
     rw_rays description{};
     description.count = count;
+    description.skip_geometry = skip_geometry_.array();
+    description.skip_primitive = skip_primitive_.array();
+    description.skip_offsets = skip_offsets_.empty() ? nullptr : skip_offsets_.data();
     description.origin = origin_.array();
     description.direction = direction_.array();
     description.tmin = tmin_.array();
@@ -142,6 +161,54 @@ RayBatch::RayBatch(Input& input, const std::vector<std::shared_ptr<Mesh>>& meshe
     }
     struct_ = std::make_unique<CallerStruct<rw_rays>>(input, description);
     outcome_.fails_if(struct_->is_wrong(), RW_ERROR_INVALID_ARGUMENT);
+    if (struct_->is_of_an_older_program()) { // which knows of no skip lists
+        skips_.assign(count, {});
+        skip_outcome_ = Outcome("skip lists");
+    }
+}
+
+void RayBatch::make_skip_arrays(Input& input, const std::vector<std::shared_ptr<Mesh>>& meshes) {
+    const std::size_t count = skips_.size();
+    const bool lists = input.one_in(2);
+    std::vector<rw_primitive_id> entries;
+    std::vector<std::uint64_t> ends;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Skips skips = i < 16 ? make_skips(input, meshes) : Skips();
+        if (lists) {
+            entries.insert(entries.end(), skips.begin(), skips.end());
+        } else {
+            entries.push_back(skips.empty() ? rw_primitive_id{RW_INVALID_ID, 0, RW_INVALID_ID} : skips.front());
+        }
+        ends.push_back(entries.size());
+    }
+    skip_primitive_ = InputArray::ids(input, entries.size(), 1, [&](std::uint64_t i, int) {
+        const std::uint32_t id = entries[i].primitive;
+        return id == RW_INVALID_ID ? ~std::uint64_t{0} : std::uint64_t{id};
+    });
+    if (!input.one_in(4)) {
+        skip_geometry_ =
+            InputArray::ids(input, entries.size(), 1, [&](std::uint64_t i, int) { return entries[i].geometry; });
+    }
+    if (lists) {
+        skip_offsets_ = ends;
+        skip_offsets_.insert(skip_offsets_.begin(), 0);
+    }
+
+    // As it stands in memory, where elements may overlap.
+    const std::uint64_t nothing = skip_primitive_.type() == RW_UINT32 ? RW_INVALID_ID : ~std::uint64_t{0};
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::uint64_t k = i == 0 ? 0 : ends[i - 1]; k < ends[i]; ++k) {
+            const std::uint64_t geometry = skip_geometry_.is_absent() ? 0 : skip_geometry_.id(k, 0);
+            const std::uint64_t primitive = skip_primitive_.id(k, 0);
+            if (primitive == nothing) continue;
+            const bool is_there = geometry < meshes.size() && primitive < meshes[geometry]->triangle_count();
+            skip_outcome_.fails_if(!is_there, RW_ERROR_INDEX_OUT_OF_RANGE);
+            if (is_there) {
+                skips_[i].push_back(
+                    {RW_INVALID_ID, static_cast<std::uint32_t>(geometry), static_cast<std::uint32_t>(primitive)});
+            }
+        }
+    }
 }
 
 std::uint64_t RayBatch::nan_count() const {
@@ -152,7 +219,9 @@ std::uint64_t RayBatch::nan_count() const {
 
 bool RayBatch::is_unchanged() const {
     return origin_.is_unchanged() && direction_.is_unchanged() && (tmin_.is_absent() || tmin_.is_unchanged()) &&
-           (tmax_.is_absent() || tmax_.is_unchanged()) && struct_->is_unchanged();
+           (tmax_.is_absent() || tmax_.is_unchanged()) &&
+           (skip_geometry_.is_absent() || skip_geometry_.is_unchanged()) &&
+           (skip_primitive_.is_absent() || skip_primitive_.is_unchanged()) && struct_->is_unchanged();
 }
 
 } // namespace raywise::fuzz

@@ -3,7 +3,9 @@
 #include "fuzz/failure.h"
 #include "fuzz/rays.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -66,23 +68,33 @@ Reference::~Reference() {
     for (const rw_scene* scene : scenes_) rw_scene_release(scene);
 }
 
-std::vector<rw_hit> Reference::all(const rw_ray& ray) const {
+rw_ray_options options_of(const Skips& skips) {
+    rw_ray_options options{};
+    options.struct_size = sizeof options;
+    options.skip_count = static_cast<std::uint32_t>(skips.size());
+    options.skip = skips.data();
+    return options;
+}
+
+std::vector<rw_hit> Reference::all(const rw_ray& ray, const Skips& skips) const {
+    const rw_ray_options options = options_of(skips);
     std::uint64_t needed = 0;
-    demand(rw_scene_intersect_all(judge(), &ray, nullptr, 0, &needed) == RW_OK, "the judge could not count hits");
+    demand(rw_scene_intersect_all_with(judge(), &ray, &options, nullptr, 0, &needed) == RW_OK,
+           "the judge could not count hits");
     std::vector<rw_hit> hits(needed);
-    demand(rw_scene_intersect_all(judge(), &ray, hits.data(), needed, &needed) == RW_OK,
+    demand(rw_scene_intersect_all_with(judge(), &ray, &options, hits.data(), needed, &needed) == RW_OK,
            "the judge could not list hits");
     demand(needed == hits.size(), "the judge counts hits twice in two ways");
-    check(ray, hits);
+    check(ray, skips, hits);
     return hits;
 }
 
-rw_hit Reference::closest(const rw_ray& ray) const {
-    const std::vector<rw_hit> hits = all(ray);
+rw_hit Reference::closest(const rw_ray& ray, const Skips& skips) const {
+    const std::vector<rw_hit> hits = all(ray, skips);
     return hits.empty() ? miss() : hits.front();
 }
 
-void Reference::check(const rw_ray& ray, const std::vector<rw_hit>& hits) const {
+void Reference::check(const rw_ray& ray, const Skips& skips, const std::vector<rw_hit>& hits) const {
     constexpr double weight_error = 0x1p-29; // the header promises 2^-30 for u and v each
     const auto complain = [&](const rw_hit& hit, const char* what) {
         describe(ray);
@@ -92,7 +104,12 @@ void Reference::check(const rw_ray& ray, const std::vector<rw_hit>& hits) const 
     const auto key = [](const rw_hit& hit) { return std::make_tuple(hit.t, hit.geometry, hit.primitive); };
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const rw_hit& hit = hits[i];
-        if (i > 0 && !(key(hits[i - 1]) < key(hit))) complain(hit, "hits are not in order");
+        if (i > 0 && !(key(hits[i - 1]) < key(hit))) {
+            for (const rw_hit& each : hits) {
+                std::fprintf(stderr, "  hit t %a, geometry %u, primitive %u\n", each.t, each.geometry, each.primitive);
+            }
+            complain(hit, "hits are not in order");
+        }
         if (!(hit.t >= ray.tmin && hit.t <= ray.tmax) || std::isinf(hit.t))
             complain(hit, "a hit outside the ray's interval");
         if (!(hit.u >= -weight_error && hit.v >= -weight_error && hit.u + hit.v <= 1.0 + weight_error)) {
@@ -105,6 +122,10 @@ void Reference::check(const rw_ray& ray, const std::vector<rw_hit>& hits) const 
         if (hit.geometry >= meshes_.size() || hit.primitive >= meshes_[hit.geometry]->triangle_count()) {
             complain(hit, "a hit of a triangle that is not there");
         }
+        const bool skipped = std::any_of(skips.begin(), skips.end(), [&](const rw_primitive_id& id) {
+            return id.geometry == hit.geometry && id.primitive == hit.primitive;
+        });
+        if (skipped) complain(hit, "a hit of a triangle that is skipped");
         if (meshes_[hit.geometry]->is_invalid(hit.primitive))
             complain(hit, "a hit of a triangle with an invalid corner");
     }

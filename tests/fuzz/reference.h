@@ -3,6 +3,7 @@
 
 #include "fuzz/asked.h"
 #include "fuzz/meshes.h"
+#include "fuzz/rays.h"
 
 #include <memory>
 #include <string>
@@ -27,12 +28,12 @@ public:
     const std::vector<Asked>& scenes() const { return asked_; }
 
     // The judge's answers, each checked by itself: order, limits of the ray, ids of triangles that may be hit.
-    std::vector<rw_hit> all(const rw_ray& ray) const;
-    rw_hit closest(const rw_ray& ray) const; // of those, the first
+    std::vector<rw_hit> all(const rw_ray& ray, const Skips& skips = {}) const;
+    rw_hit closest(const rw_ray& ray, const Skips& skips = {}) const; // of those, the first
     const rw_scene* judge() const { return scenes_.front(); }
 
 private:
-    void check(const rw_ray& ray, const std::vector<rw_hit>& hits) const;
+    void check(const rw_ray& ray, const Skips& skips, const std::vector<rw_hit>& hits) const;
 
     Meshes meshes_;
     std::vector<rw_scene*> scenes_;
@@ -40,5 +41,7 @@ private:
 };
 
 rw_hit miss();
+
+rw_ray_options options_of(const Skips& skips);
 
 } // namespace raywise::fuzz
