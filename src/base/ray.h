@@ -58,8 +58,11 @@ public:
         shear_x = direction[x_axis] * inverse[major_axis];
         shear_y = direction[y_axis] * inverse[major_axis];
         tmin = from_caller(ray.tmin);
+        // Converting rounds only where the result is below the normal numbers; then the interval must not grow.
+        if (to_caller(tmin) < ray.tmin) tmin = std::nextafter(tmin, std::numeric_limits<double>::infinity());
         // A hit so far away that its t overflows in the caller's unit cannot be reported.
         tmax = std::min(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
+        if (to_caller(tmax) > ray.tmax) tmax = std::nextafter(tmax, -std::numeric_limits<double>::infinity());
         const Vec3 reach = glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin));
         margin = 0x1p-34 * std::max(max_component(reach), 0x1p-900);
     }
