@@ -23,8 +23,8 @@ struct ExactAnswers {
     // to a triangle; one without area, or edge-on to the ray, is never touched. So the first is the closest hit.
     std::vector<ExactAnswer> touched;
     // The hits that are listed and counted: those of the ray moved sideways by next to nothing, towards the inside of the
-    // first triangle touched. So a surface is crossed once even where the ray passes through an edge. False when
-    // it depends on where inside; parity never does on a closed mesh.
+    // first triangle touched. So a surface is crossed once even where the ray passes through an edge. False when their
+    // number depends on where inside (counted then means towards its middle); parity never does on a closed mesh.
     bool count_certain = true;
 
     std::size_t count() const;
