@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 namespace raywise {
 namespace {
@@ -90,6 +91,25 @@ bool summed_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, co
     return are_weights(weights.a, weights.b, weights.c);
 }
 
+// 6 products of three differences of two parts, each of which adds eight components.
+using Volume = Expansion<6 * 8 * 8>;
+
+// volume += sign * a * b * c
+void add_triple(Volume& volume, double sign, const Difference& a, const Difference& b, const Difference& c) {
+    for (const double x : a.parts) {
+        if (x == 0.0) continue;
+        for (const double y : b.parts) {
+            if (y == 0.0) continue;
+            const DoublePair product = two_product(x, y);
+            for (const double z : c.parts) {
+                if (z == 0.0) continue;
+                if (product.low != 0.0) volume.add_product(sign * z, product.low);
+                volume.add_product(sign * z, product.high);
+            }
+        }
+    }
+}
+
 // ---- Integers: any numbers.
 
 // The same for several values: what brings the largest below 1.
@@ -120,6 +140,39 @@ bool exact_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, con
                    Weights& weights) {
     return can_be_summed({origin, direction, a, b, c}) ? summed_weights(origin, direction, a, b, c, weights)
                                                        : integer_weights(origin, direction, a, b, c, weights);
+}
+
+double plane_side(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c) {
+    // Each of six products of three rounds by at most 2^-50: three differences, two products and three sums of 2^-53 each.
+    const Vec3 pa = a - origin;
+    const Vec3 pb = b - origin;
+    const Vec3 pc = c - origin;
+    const double side = glm::dot(pa, glm::cross(pb, pc));
+    const Vec3 products(std::fabs(pb.y * pc.z) + std::fabs(pb.z * pc.y),
+                        std::fabs(pb.z * pc.x) + std::fabs(pb.x * pc.z),
+                        std::fabs(pb.x * pc.y) + std::fabs(pb.y * pc.x));
+    const double sum = glm::dot(glm::abs(pa), products);
+    if (sum > 0x1p-900 && std::fabs(side) > 0x1p-49 * sum) return side; // neither holds where something overflowed
+
+    if (can_be_summed({origin, a, b, c})) {
+        const DifferenceVec3 p(a, origin);
+        const DifferenceVec3 q(b, origin);
+        const DifferenceVec3 r(c, origin);
+        Volume volume; // p . (q x r), which is the same
+        for (int axis = 0; axis < 3; ++axis) {
+            const int next = (axis + 1) % 3;
+            const int last = (axis + 2) % 3;
+            add_triple(volume, 1.0, p.axes[axis], q.axes[next], r.axes[last]);
+            add_triple(volume, -1.0, p.axes[axis], q.axes[last], r.axes[next]);
+        }
+        return volume.value();
+    }
+    const BinaryUnit length{origin, a, b, c};
+    const WideVec3 o = length.count(origin);
+    const WideInteger volume = dot(length.count(a) - o, cross(length.count(b) - o, length.count(c) - o));
+    if (volume.is_zero()) return 0.0;
+    const double magnitude = std::fabs(scaled_down(volume, -3 * length.exponent()));
+    return std::copysign(std::max(magnitude, std::numeric_limits<double>::denorm_min()), volume.sign());
 }
 
 Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c) {

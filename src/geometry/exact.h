@@ -19,6 +19,9 @@ struct Weights {
 bool exact_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c,
                    Weights& weights);
 
+// (a - origin) . ((b - a) x (c - a)): on which side of a triangle's plane a point is. The sign is exact, zero only on the plane.
+double plane_side(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c);
+
 // (b - a) x (c - a) times a power of two that brings its largest component near 1; zero exactly when the corners lie in one line.
 Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -16,9 +16,10 @@ namespace raywise {
 
 // Room for the widest value asked for: coordinates are multiples of 2^-1074 below 2^1024, so their differences take 2,099 bits;
 // a prepared direction's components are multiples of 2^-552 below 2 (PreparedRay::smallest_direction), 553 bits. A determinant
-// is a sum of six products of two differences and a direction: 2 * 2,099 + 553 + 3 bits; crossings.cpp adds six of those.
+// is a sum of six products of two differences and a direction: 2 * 2,099 + 553 + 3 bits; crossings.cpp adds six of those. A
+// volume is a sum of six products of three differences: 3 * 2,099 + 3 bits.
 using WideInteger = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<4800, 4800, boost::multiprecision::signed_magnitude,
+    boost::multiprecision::cpp_int_backend<6400, 6400, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
 
@@ -60,6 +61,8 @@ public:
         return WideInteger(parts.mantissa) << shift;
     }
     WideVec3 count(const Vec3& v) const { return {count(v.x), count(v.y), count(v.z)}; }
+
+    int exponent() const { return exponent_; }
 
 private:
     // x = mantissa * 2^exponent, with an odd mantissa.

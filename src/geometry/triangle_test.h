@@ -59,6 +59,12 @@ struct Edges {
     double wc;
 };
 
+// z of a hit that lies within z_error of the ray's origin, with the sign that exact arithmetic gives it: a ray that starts on a
+// triangle hits it at 0, one that starts beyond it, by however little, does not hit it again. backwards: whether the edges add up
+// to less than zero.
+double z_near_origin(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, bool backwards, double z,
+                     double z_error);
+
 // The test of a triangle that may be hit, or is so close to the ray or so small that its miss is not certain at first sight.
 inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, const Sheared& sa,
                          const Sheared& sb, const Sheared& sc, const Edges& edges, TriangleHit& hit) {
@@ -92,16 +98,21 @@ inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, c
     if (!in_range || !signs_certain || !weights_certain) {
         Weights exact;
         if (!exact_weights(ray.origin, ray.direction, a, b, c, exact)) return false;
-        wa = exact.a;
-        wb = exact.b;
-        wc = exact.c;
+        // The edges above are these determinants divided by the direction's largest component.
+        const double sign = std::copysign(1.0, at(ray.inverse, ray.major_axis));
+        wa = sign * exact.a;
+        wb = sign * exact.b;
+        wc = sign * exact.c;
     }
     const double sum = wa + wb + wc;
     const double u = wb / sum;
     const double v = wc / sum;
-    const double z = sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z));
+    double z = std::clamp(sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z)), z_low, z_high);
+    const double z_error = 0x1p-38 * largest;
+    if (z_low <= 0.0 && z_high >= 0.0 && std::fabs(z) <= z_error)
+        z = z_near_origin(ray, a, b, c, sum < 0.0, z, z_error);
     // As the caller will see it: two hits that are at the same t there have to be so here, where they are put in order.
-    hit.t = ray.from_caller(ray.to_caller(std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis)));
+    hit.t = ray.from_caller(ray.to_caller(z * at(ray.inverse, ray.major_axis)));
     hit.t += 0.0; // here and below: never a negative zero
     hit.u = u + 0.0;
     hit.v = v + 0.0;

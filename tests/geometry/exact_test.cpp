@@ -21,6 +21,17 @@ Fraction determinant(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q)
     return oracle::exact_determinant_value(d, o, p, q);
 }
 
+// (a - origin) . ((b - a) x (c - a))
+Fraction volume(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c) {
+    Fraction sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 unit(0.0);
+        unit[axis] = 1.0;
+        sum += (oracle::exact(a[axis]) - oracle::exact(origin[axis])) * determinant(unit, a, b, c);
+    }
+    return sum;
+}
+
 // How far a ratio of two doubles is from the exact one, relative to it.
 double relative_error(double numerator, double denominator, const Fraction& wanted) {
     if (wanted == 0) return numerator == 0.0 ? 0.0 : 1.0;
@@ -140,6 +151,26 @@ TEST(ExactWeights, AreExactForAllDoubles) {
         expect_exact(Vec3(0x1p664) + aside, Vec3(-1.0), unit, met);
     }
     EXPECT_EQ(met, before + 1) << "the first is met, the second is not";
+}
+
+TEST(PlaneSide, IsThatOfFractions) {
+    Numbers numbers;
+    int on_plane = 0;
+    for (int i = 0; i < 6000; ++i) {
+        const int spread = i % 3 == 0 ? 1 : i % 3 == 1 ? 40 : 500;
+        const auto vector = [&] { return numbers.vector(-2 * spread, std::min(spread, 127)); };
+        const Vec3 a = vector();
+        const Vec3 b = vector();
+        const Vec3 c = vector();
+        // On the plane but for rounding, exactly on it, and anywhere.
+        const Vec3 inside = 0.25 * a + 0.25 * b + 0.5 * c;
+        for (const auto& [origin, p] : {std::pair(inside, a), std::pair(a, a), std::pair(vector(), a)}) {
+            const double side = plane_side(origin, p, b, c);
+            ASSERT_EQ((side > 0.0) - (side < 0.0), volume(origin, p, b, c).sign());
+            on_plane += side == 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(on_plane, 1900);
 }
 
 TEST(ExactNormal, IsTheCrossProduct) {

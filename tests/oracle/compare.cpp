@@ -84,8 +84,10 @@ private:
         int inside = 1;
         if (std::isfinite(ray_.tmin)) {
             const Fraction from_start = t - exact(ray_.tmin);
-            if (from_start < -bound_) return -1;
-            if (from_start < bound_) inside = 0;
+            // Where a ray starts is told exactly, down to the least t there is.
+            const Fraction slack = ray_.tmin == 0.0 ? exact(std::numeric_limits<double>::denorm_min()) : bound_;
+            if (from_start < -slack) return -1;
+            if (from_start < 0 || (ray_.tmin != 0.0 && from_start < bound_)) inside = 0;
         } else if (ray_.tmin > 0) {
             return -1;
         }

@@ -156,6 +156,30 @@ TEST(LinearScan, KeepsWeightsOfSpecksFarAway) {
     report(all);
 }
 
+// A step of one unit in the last place beyond the surface, or on it, or before it.
+TEST(LinearScan, TellsExactlyOnWhichSideARayStarts) {
+    Comparison all;
+    for (const Scene& scene : {icosphere(2), soup(150, 22), terrain(8), flat_square(5, 1),
+                               transformed(icosphere(2), 1.0, Vec3(5e6, 3e5, 100.0), false),
+                               transformed(soup(150, 22), 1e-30, Vec3(0.0), false)}) {
+        std::vector<Ray> rays;
+        for (Ray ray : random_rays(scene, 150, 23)) {
+            const auto& [a, b, c] = scene.triangles[rays.size() % scene.triangles.size()];
+            const Vec3 on = 0.25 * scene.vertices[a] + 0.25 * scene.vertices[b] + 0.5 * scene.vertices[c];
+            for (const double beside : {0.0, -2000.0, 2000.0}) {
+                ray.origin = on;
+                ray.origin[static_cast<int>(rays.size() % 3)] =
+                    beside == 0.0 ? on[static_cast<int>(rays.size() % 3)]
+                                  : std::nextafter(on[static_cast<int>(rays.size() % 3)], beside * 1e300);
+                rays.push_back(ray);
+            }
+        }
+        all.add(compare_with_judge(scene, rays));
+    }
+    report(all);
+    EXPECT_GT(all.hits, 1000u);
+}
+
 TEST(LinearScan, CountsAHitAtTheOriginOfARay) {
     // The origin lies exactly on the triangle, so t is exactly 0 and tmin = 0 includes it.
     const Scene scene = soup(200, 21);

@@ -21,11 +21,12 @@
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
  *   Components of a direction below 2^-500 of its largest, that one rounded down to a power of two, count as zero.
  * - Answers. Whether a ray's line meets a triangle is decided by exact arithmetic on the coordinates given; edges and corners
- *   belong to the triangle. A triangle seen edge-on, and one without area, is not met. t is accurate to 2^-37 of the distance between the ray's origin and the farthest point of the
- *   scene, u and v to 2^-30, nearly always to all but the last bits; a hit that close to tmin or tmax counts as its rounded t
- *   says, alike everywhere. Where several
- *   triangles are hit at the same t the lowest (instance, geometry, primitive) wins. The bits of an answer do not
- *   depend on the structure, the call, the order or the number of threads.
+ *   belong to the triangle. A triangle seen edge-on, and one without area, is not met. t is accurate to 2^-37 of the distance
+ *   between the ray's origin and the farthest point of the scene, u and v to 2^-30, nearly always to all but the last bits. A
+ *   hit that close to tmin or tmax counts as its rounded t says, alike everywhere; but where a ray starts is told exactly: t is 0
+ *   when the origin lies on the triangle, below 0 when it lies beyond it by however little. Where several triangles are hit at
+ *   the same t the lowest (instance, geometry, primitive) wins. The bits of an answer do not depend on the structure, the call,
+ *   the order, the number of threads or the processor.
  * - All hits. A ray exactly through an edge or a corner meets every triangle around it. Where all hits are asked for, such a
  *   ray counts as one beside it, moved by less than any number towards the inside of its first hit's triangle: each surface
  *   is then crossed once. The first of all hits is the closest hit, a ray that hits anything has at least one, and their number
