@@ -1,15 +1,13 @@
 #include "base/parallel.h"
 
 #include "base/error.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "base/scheduler.h"
+#include "base/thread_sanitizer.h"
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -42,21 +40,35 @@ private:
     std::exception_ptr first_;
 };
 
-// oneTBB comes to life with the first arena. When memory is refused in the middle of that, it does not recover, and whatever
-// is asked of it next never returns. So it is tried once and left alone when it fails: loops then run on the caller's thread.
-// The arena stays, or oneTBB would be gone, and come to life again, with every thread of the host that used it.
-bool threads_are_there() {
-    static const bool there = [] {
-        try {
-            static tbb::task_arena* const stays = new tbb::task_arena;
-            stays->initialize();
-            return true;
-        } catch (const std::bad_alloc&) {
-            return false;
-        }
-    }();
-    return there;
-}
+// A loop that any number of threads may join: each takes the next index that nobody has taken.
+class SharedLoop {
+public:
+    SharedLoop(std::uint64_t count, const Parallel::Task& task) : count_(count), task_(task) {}
+
+    void run(unsigned threads) {
+        hand_over(this);
+        run_on_threads(threads, std::min<std::uint64_t>(threads, count_), join, this);
+        take_over(this);
+        work(); // whatever is left when there were no threads
+        exception_.rethrow();
+    }
+
+private:
+    static void join(void* loop) noexcept {
+        take_over(loop);
+        static_cast<SharedLoop*>(loop)->work();
+        hand_over(loop);
+    }
+    void work() noexcept {
+        for (std::uint64_t i = next_.fetch_add(1); i < count_; i = next_.fetch_add(1))
+            exception_.run([&] { task_(i); });
+    }
+
+    std::uint64_t count_;
+    const Parallel::Task& task_;
+    std::atomic<std::uint64_t> next_{0};
+    FirstException exception_;
+};
 
 } // namespace
 
@@ -98,25 +110,11 @@ void Parallel::for_each(std::uint64_t count, const Task& task) const {
         }
         return;
     }
-    if (threads_ == 1 || count == 1 || !threads_are_there()) {
+    if (threads_ == 1 || count == 1) {
         for (std::uint64_t i = 0; i < count; ++i) task(i);
         return;
     }
-    std::atomic<std::uint64_t> next{0};
-    const auto work = [&] {
-        for (std::uint64_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) exception.run([&] { task(i); });
-    };
-    try {
-        tbb::task_arena arena(static_cast<int>(threads_));
-        arena.execute([&] {
-            tbb::parallel_for(std::uint64_t{0}, std::min<std::uint64_t>(threads_, count),
-                              [&](std::uint64_t) { work(); });
-        });
-    } catch (const std::exception&) {
-        // oneTBB got no memory or no thread; tasks throw nothing through it. The caller's thread does what is left.
-    }
-    work();
-    exception.rethrow();
+    SharedLoop(count, task).run(threads_);
 }
 
 void Parallel::for_blocks(std::uint64_t count, std::uint64_t grain,
