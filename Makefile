@@ -11,14 +11,14 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK PEERS
 
 CALIBRATE_FLAGS ?=
 
 .PHONY: help
 help: ## list the goals
 	@echo "make GOAL, where GOAL is one of:"
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 .PHONY: setup
 setup: ## install all that any goal needs
@@ -62,6 +62,11 @@ bench: ## build the benchmarks, into build/bench
 	@tools/setup.sh bench
 	cmake --preset bench
 	cmake --build --preset bench
+
+.PHONY: contract-peers
+contract-peers: ## the hard cases before other libraries [QUICK=1] [PEERS='embree cgal ...']
+	@tools/setup.sh native peers
+	@tools/contract-peers.sh
 
 .PHONY: bindings
 bindings: ## regenerate the Rust and Python declarations from the header
