@@ -128,6 +128,14 @@ RayArrays read_rays(const rw_rays* source, const char* name) {
     arrays.direction = read_array(rays.direction, rays.count, 3, Elements::numbers, true, prefix + "direction");
     arrays.tmin = read_array(rays.tmin, rays.count, 1, Elements::numbers, false, prefix + "tmin");
     arrays.tmax = read_array(rays.tmax, rays.count, 1, Elements::numbers, false, prefix + "tmax");
+    arrays.skip.primitive =
+        read_array(rays.skip_primitive, rays.count, 1, Elements::indices, false, prefix + "skip_primitive");
+    arrays.skip.geometry =
+        read_array(rays.skip_geometry, rays.count, 1, Elements::indices, false, prefix + "skip_geometry");
+    arrays.skip.offsets = {reinterpret_cast<const std::byte*>(rays.skip_offsets), sizeof(std::uint64_t),
+                           sizeof(std::uint64_t), Scalar::uint64};
+    if (!arrays.skip.wanted() && (arrays.skip.geometry.data != nullptr || arrays.skip.offsets.data != nullptr))
+        throw bad_argument(prefix + "skip_primitive: data is NULL, but skip_geometry or skip_offsets is not");
     return arrays;
 }
 
@@ -150,6 +158,25 @@ Ray read_ray(const rw_ray* source) {
             ray.tmin,
             {ray.direction[0], ray.direction[1], ray.direction[2]},
             ray.tmax};
+}
+
+std::vector<std::uint32_t> read_skips(const rw_ray_options* source, const Primitives& primitives) {
+    const rw_ray_options options = read_optional_struct(source, "options");
+    if (options.skip_count > 0 && options.skip == nullptr) throw null_argument("options.skip");
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(options.skip_count);
+    for (std::uint32_t i = 0; i < options.skip_count; ++i) {
+        const rw_primitive_id& id = options.skip[i];
+        const SkipEntry entry{id.geometry, id.primitive};
+        if (entry.stands_for_nothing()) continue;
+        if (id.instance != RW_INVALID_ID) {
+            throw Error(Status::ERROR_INDEX_OUT_OF_RANGE, "options.skip[" + std::to_string(i) + "]: instance " +
+                                                              std::to_string(id.instance) +
+                                                              " is out of range, the scene has no instances");
+        }
+        numbers.push_back(entry.number(primitives, "options.skip", i));
+    }
+    return numbers;
 }
 
 rw_hit write_hit(const Hit& hit) {

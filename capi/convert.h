@@ -10,28 +10,44 @@
 #include "scene/tracer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace raywise::capi {
 
-// Reads a struct that begins with its size. A larger one, of a newer program, is fine as long as what this library does not
-// know is zero.
+// The size a struct had in the version before, for those that have grown since: what an older program passes.
 template <class T>
-T read_struct(const T* source, const char* name) {
+inline constexpr std::size_t previous_size = sizeof(T);
+template <>
+inline constexpr std::size_t previous_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
+
+// The struct_size of a struct that begins with one. A larger one, of a newer program, is fine as long as what this library does
+// not know is zero.
+template <class T>
+std::uint32_t read_size(const T* source, const char* name) {
     std::uint32_t size = 0;
     std::memcpy(&size, &required(source, name), sizeof size);
-    if (size < sizeof(T) || size > 4096) {
+    if ((size < sizeof(T) && size != previous_size<T>) || size > 4096) {
         throw Error(Status::ERROR_INVALID_ARGUMENT, std::string(name) + ": struct_size is " + std::to_string(size) +
                                                         ", it should be " + std::to_string(sizeof(T)));
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(source);
-    if (std::any_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte != 0; })) {
+    if (size > sizeof(T) &&
+        std::any_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte != 0; })) {
         throw Error(Status::ERROR_INVALID_ARGUMENT,
                     std::string(name) + ": it sets a member that this version of the library does not know");
     }
-    T copy;
-    std::memcpy(&copy, source, sizeof copy);
+    return size;
+}
+
+// Reads such a struct; members that its program did not know are zero.
+template <class T>
+T read_struct(const T* source, const char* name) {
+    const std::uint32_t size = read_size(source, name);
+    T copy{};
+    std::memcpy(&copy, source, std::min<std::size_t>(size, sizeof copy));
     return copy;
 }
 
@@ -44,11 +60,11 @@ T read_optional_struct(const T* source, const char* name) {
     return defaults;
 }
 
-// Hands a result struct out, keeping the caller's struct_size.
+// Hands a result struct out, as much of it as the caller knows, keeping the caller's struct_size.
 template <class T>
 void write_struct(T* target, const char* name, T value) {
-    value.struct_size = read_struct(target, name).struct_size;
-    std::memcpy(target, &value, sizeof value);
+    value.struct_size = read_size(target, name);
+    std::memcpy(target, &value, std::min<std::size_t>(value.struct_size, sizeof value));
 }
 
 enum class Elements {
@@ -72,6 +88,8 @@ TriangleArrays read_triangles(const rw_triangles& triangles);
 RayArrays read_rays(const rw_rays* rays, const char* name);
 HitArrays read_hits(const rw_hits* hits, std::uint64_t count);
 Ray read_ray(const rw_ray* ray);
+// The numbers of what the ray skips, in the caller's order.
+std::vector<std::uint32_t> read_skips(const rw_ray_options* options, const Primitives& primitives);
 rw_hit write_hit(const Hit& hit);
 
 Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name);

@@ -9,6 +9,12 @@ Parallel read_query_parallel(const rw_query_options& options) {
     return read_parallel(options.threads, options.parallel_for, options.parallel_user);
 }
 
+RayArrays read_checked_rays(const rw_rays* rays, const Tracer& tracer) {
+    RayArrays arrays = read_rays(rays, "rays");
+    arrays.skip.check(arrays.count, tracer.primitives());
+    return arrays;
+}
+
 void report_invalid(const rw_query_options& options, std::uint64_t invalid) {
     if (options.invalid_rays != nullptr) *options.invalid_rays = invalid;
 }
@@ -20,20 +26,35 @@ Error over_capacity(std::uint64_t needed, std::uint64_t capacity) {
 
 } // namespace
 
-void intersect_all(const Tracer& tracer, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
-                   std::uint64_t* needed) {
+void intersect_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hit) {
+    const Ray r = read_ray(ray);
+    rw_hit& out = required(hit, "hit");
+    std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
+    out = write_hit(tracer.closest(r, sorted(skips)));
+}
+
+void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer) {
+    const Ray r = read_ray(ray);
+    std::int32_t& out = required(answer, "occluded");
+    std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
+    out = tracer.any(r, sorted(skips)) ? 1 : 0;
+}
+
+void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hits,
+                        std::uint64_t capacity, std::uint64_t* needed) {
     const Ray r = read_ray(ray);
     std::uint64_t& count = required(needed, "needed");
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
+    std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     std::vector<Hit> found;
-    tracer.all(r, found);
+    tracer.all(r, found, sorted(skips));
     count = found.size();
     for (std::size_t i = 0; i < std::min<std::uint64_t>(capacity, found.size()); ++i) hits[i] = write_hit(found[i]);
     if (hits != nullptr && found.size() > capacity) throw over_capacity(found.size(), capacity);
 }
 
 void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) {
-    const RayArrays in = read_rays(rays, "rays");
+    const RayArrays in = read_checked_rays(rays, tracer);
     const HitArrays out = read_hits(hits, in.count);
     const rw_query_options o = read_optional_struct(options, "options");
     report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o)));
@@ -41,7 +62,7 @@ void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* h
 
 void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers,
                     const rw_query_options* options) {
-    const RayArrays in = read_rays(rays, "rays");
+    const RayArrays in = read_checked_rays(rays, tracer);
     const OutputArray out = read_output(required(answers, "occluded"), in.count, 1, OutputKind::flags, "occluded");
     if (!out.wanted() && in.count > 0) throw Error(Status::ERROR_INVALID_ARGUMENT, "occluded: data is NULL");
     const rw_query_options o = read_optional_struct(options, "options");
@@ -50,7 +71,7 @@ void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* 
 
 void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits,
                          std::uint64_t capacity, std::uint64_t* needed, const rw_query_options* options) {
-    const RayArrays in = read_rays(rays, "rays");
+    const RayArrays in = read_checked_rays(rays, tracer);
     required(offsets, "offsets");
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
     const HitArrays out = hits != nullptr ? read_hits(hits, capacity) : HitArrays{};

@@ -16,8 +16,10 @@ inline void occluded(const Tracer& tracer, const rw_ray* ray, std::int32_t* answ
     required(answer, "occluded") = tracer.any(r) ? 1 : 0;
 }
 
-void intersect_all(const Tracer& tracer, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
-                   std::uint64_t* needed);
+void intersect_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hit);
+void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer);
+void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hits,
+                        std::uint64_t capacity, std::uint64_t* needed);
 void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* hits, const rw_query_options* options);
 void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers,
                     const rw_query_options* options);

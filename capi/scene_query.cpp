@@ -16,7 +16,24 @@ std::int32_t rw_scene_occluded(const rw_scene* scene, const rw_ray* ray, std::in
 
 std::int32_t rw_scene_intersect_all(const rw_scene* scene, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
                                     std::uint64_t* needed) {
-    return guard([&] { intersect_all(required(scene, "scene").value->tracer(), ray, hits, capacity, needed); });
+    return guard(
+        [&] { intersect_all_with(required(scene, "scene").value->tracer(), ray, nullptr, hits, capacity, needed); });
+}
+
+std::int32_t rw_scene_intersect_with(const rw_scene* scene, const rw_ray* ray, const rw_ray_options* options,
+                                     rw_hit* hit) {
+    return guard([&] { intersect_with(required(scene, "scene").value->tracer(), ray, options, hit); });
+}
+
+std::int32_t rw_scene_occluded_with(const rw_scene* scene, const rw_ray* ray, const rw_ray_options* options,
+                                    std::int32_t* answer) {
+    return guard([&] { occluded_with(required(scene, "scene").value->tracer(), ray, options, answer); });
+}
+
+std::int32_t rw_scene_intersect_all_with(const rw_scene* scene, const rw_ray* ray, const rw_ray_options* options,
+                                         rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) {
+    return guard(
+        [&] { intersect_all_with(required(scene, "scene").value->tracer(), ray, options, hits, capacity, needed); });
 }
 
 std::int32_t rw_scene_intersect_batch(const rw_scene* scene, const rw_rays* rays, const rw_hits* hits,

@@ -77,7 +77,24 @@ std::int32_t rw_view_occluded(const rw_view* view, const rw_ray* ray, std::int32
 
 std::int32_t rw_view_intersect_all(const rw_view* view, const rw_ray* ray, rw_hit* hits, std::uint64_t capacity,
                                    std::uint64_t* needed) {
-    return guard([&] { intersect_all(required(view, "view").value->tracer(), ray, hits, capacity, needed); });
+    return guard(
+        [&] { intersect_all_with(required(view, "view").value->tracer(), ray, nullptr, hits, capacity, needed); });
+}
+
+std::int32_t rw_view_intersect_with(const rw_view* view, const rw_ray* ray, const rw_ray_options* options,
+                                    rw_hit* hit) {
+    return guard([&] { intersect_with(required(view, "view").value->tracer(), ray, options, hit); });
+}
+
+std::int32_t rw_view_occluded_with(const rw_view* view, const rw_ray* ray, const rw_ray_options* options,
+                                   std::int32_t* answer) {
+    return guard([&] { occluded_with(required(view, "view").value->tracer(), ray, options, answer); });
+}
+
+std::int32_t rw_view_intersect_all_with(const rw_view* view, const rw_ray* ray, const rw_ray_options* options,
+                                        rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) {
+    return guard(
+        [&] { intersect_all_with(required(view, "view").value->tracer(), ray, options, hits, capacity, needed); });
 }
 
 std::int32_t rw_view_intersect_batch(const rw_view* view, const rw_rays* rays, const rw_hits* hits,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box.h"
+#include "base/skip_list.h"
 #include "base/vec.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ public:
     static constexpr double smallest_direction = 0x1p-500;
 
     // bounds: of the whole scene. The ray has to be valid (see is_traceable).
-    PreparedRay(const Ray& ray, const Box& bounds) : origin(ray.origin) {
+    PreparedRay(const Ray& ray, const Box& bounds, SkipList skipped = {}) : origin(ray.origin), skip(skipped) {
         const Vec3 magnitude = glm::abs(ray.direction);
         major_axis =
             magnitude.x >= magnitude.y ? (magnitude.x >= magnitude.z ? 0 : 2) : (magnitude.y >= magnitude.z ? 1 : 2);
@@ -85,6 +86,7 @@ public:
     int y_axis;
     double shear_x; // direction[x_axis] / direction[major_axis]
     double shear_y;
+    SkipList skip; // what the ray does not see
 
 private:
     int scale_exponent_;

@@ -17,7 +17,7 @@ void store(std::byte* address, T value) {
     std::memcpy(address, &value, sizeof value); // the caller's arrays need not be aligned
 }
 
-// Runs body(i, ray) for all rays, counts those with a NaN, and notes the time.
+// Runs body(i, ray, skip) for all rays, counts those with a NaN, and notes the time.
 template <class Body>
 std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
     using Clock = std::chrono::steady_clock;
@@ -25,10 +25,11 @@ std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Pa
     std::atomic<std::uint64_t> invalid{0};
     parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
         std::uint64_t invalid_here = 0;
+        std::vector<std::uint32_t> skipped;
         for (std::uint64_t i = begin; i < end; ++i) {
             const Ray ray = rays.ray(i);
             invalid_here += ray.has_nan() ? 1 : 0;
-            body(i, ray);
+            body(i, ray, rays.skip.of_ray(i, tracer.primitives(), skipped));
         }
         invalid.fetch_add(invalid_here, std::memory_order_relaxed);
     });
@@ -89,14 +90,16 @@ void HitArrays::put(std::uint64_t element, const Hit& hit) const {
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel) {
-    return for_each_ray(tracer, rays, parallel,
-                        [&](std::uint64_t i, const Ray& ray) { hits.put(i, tracer.closest(ray)); });
+    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
+        hits.put(i, tracer.closest(ray, skip));
+    });
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel) {
-    return for_each_ray(tracer, rays, parallel,
-                        [&](std::uint64_t i, const Ray& ray) { occluded.put_integer(i, tracer.any(ray) ? 1 : 0); });
+    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
+        occluded.put_integer(i, tracer.any(ray, skip) ? 1 : 0);
+    });
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
@@ -104,7 +107,8 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
                                   const Parallel& parallel) {
     std::vector<std::vector<Hit>> found(rays.count);
     const std::uint64_t invalid =
-        for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray) { tracer.all(ray, found[i]); });
+        for_each_ray(tracer, rays, parallel,
+                     [&](std::uint64_t i, const Ray& ray, SkipList skip) { tracer.all(ray, found[i], skip); });
     std::uint64_t total = 0;
     for (std::uint64_t i = 0; i < rays.count; ++i) {
         offsets[i] = total;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "batch/skip_arrays.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/tracer.h"
 
@@ -16,6 +17,7 @@ struct RayArrays {
     StridedArray direction;
     StridedArray tmin; // data null: 0
     StridedArray tmax; // data null: infinity
+    SkipArrays skip;
 
     Ray ray(std::uint64_t i) const;
 };
@@ -44,7 +46,7 @@ struct HitArrays {
     void put(std::uint64_t element, const Hit& hit) const;
 };
 
-// Each returns how many of the rays held a NaN.
+// Each returns how many of the rays held a NaN. The skip lists have to be checked.
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel);
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,

@@ -1,10 +1,10 @@
 #include "geometry/primitives.h"
 
 #include "base/error.h"
+#include "geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -12,7 +12,7 @@ namespace raywise {
 namespace {
 
 // (b - a) x (c - a) times a power of two; zero exactly when the corners lie in one line. Where the plain cross product would be
-// mostly rounding each component is computed exactly: it is the determinant of an axis with the two edges.
+// mostly rounding each component is computed exactly.
 Vec3 scaled_normal(const Corners& c) {
     Vec3 e = c[1] - c[0];
     Vec3 f = c[2] - c[0];
@@ -23,23 +23,7 @@ Vec3 scaled_normal(const Corners& c) {
     // Its rounding is below 2^-50 of size^2, as long as the squares are normal numbers.
     if (size > 0x1p-300 && size < 0x1p300 && max_component(glm::abs(n)) > 0x1p-30 * size * size) return n;
 
-    // Each axis is scaled by itself, so that a triangle may be huge along one and tiny along another. A component of the normal
-    // is made of the other two axes; the scales are taken back relative to the largest component.
-    const AxisScale scale = AxisScale::of(largest);
-    int exponents[3];
-    int highest = std::numeric_limits<int>::min();
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3 unit(0.0);
-        unit[axis] = 1.0;
-        n[axis] = exact_determinant(unit, c[0], c[1], c[2], scale);
-        if (n[axis] == 0.0) continue;
-        exponents[axis] = scale.exponents[(axis + 1) % 3] + scale.exponents[(axis + 2) % 3];
-        highest = std::max(highest, std::ilogb(n[axis]) + exponents[axis]);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        if (n[axis] != 0.0) n[axis] = std::ldexp(n[axis], exponents[axis] - highest);
-    }
-    return n;
+    return exact_normal(c[0], c[1], c[2]);
 }
 
 } // namespace

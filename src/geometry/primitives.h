@@ -69,13 +69,17 @@ public:
         return {geometry, primitive - first_[geometry]};
     }
 
-    // Whether the ray hits the primitive within [ray.tmin, ray.tmax]. The only way to a hit, for every structure.
+    std::uint32_t number(const PrimitiveId& id) const { return first_[id.geometry] + id.primitive; }
+
+    // Whether the ray hits the primitive within [ray.tmin, ray.tmax], and does not skip it. The only way to a hit, for every
+    // structure.
     bool test(const PreparedRay& ray, std::uint32_t primitive, PrimitiveHit& hit) const {
         if (!is_hittable(primitive)) return false;
         const Corners c = corners(primitive);
         TriangleHit found;
         if (!test_triangle(ray, c[0], c[1], c[2], found)) return false;
         if (!(ray.tmin <= found.t && found.t <= ray.tmax)) return false;
+        if (!ray.skip.empty() && ray.skip.contains(primitive)) return false;
         hit = {found.t, found.u, found.v, primitive};
         return true;
     }

@@ -32,9 +32,9 @@ struct StridedArray {
     std::ptrdiff_t component_stride = 0;
     Scalar scalar = Scalar::float32;
 
-    double number(std::uint64_t element, int component = 0) const;   // float32 or float64
-    std::uint64_t index(std::uint64_t element, int component) const; // uint32 or uint64
-    Vec3 vec3(std::uint64_t element) const;                          // float32 or float64
+    double number(std::uint64_t element, int component = 0) const;       // float32 or float64
+    std::uint64_t index(std::uint64_t element, int component = 0) const; // uint32 or uint64
+    Vec3 vec3(std::uint64_t element) const;                              // float32 or float64
 };
 
 // Written for speed: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.

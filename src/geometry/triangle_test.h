@@ -7,7 +7,7 @@
 //
 // Almost always float64 settles the signs: the corners are sheared so that the ray runs along its major axis (the first
 // steps of Woop et al.), which makes the determinants two-dimensional and their error small and known. Only what lies
-// within that error of zero goes to exact_determinant.
+// within that error of zero goes to exact_weights.
 //
 // A triangle without area, and one the ray lies in the plane of, has determinants that add up to exactly zero: it
 // cannot be hit. No epsilon is used anywhere.
@@ -15,7 +15,7 @@
 
 #include "base/ray.h"
 #include "base/vec.h"
-#include "geometry/exact_determinant.h"
+#include "geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,15 +95,13 @@ inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, 
     const bool weights_certain =
         weight_error * 0x1p30 <= area && weight_error * (z_high - z_low) * 0x1p40 <= area * largest;
     if (!in_range || !signs_certain || !weights_certain) {
-        const AxisScale scale = AxisScale::of(glm::max(glm::abs(pa), glm::max(glm::abs(pb), glm::abs(pc))));
-        wa = exact_determinant(ray.direction, ray.origin, b, c, scale);
-        wb = exact_determinant(ray.direction, ray.origin, c, a, scale);
-        wc = exact_determinant(ray.direction, ray.origin, a, b, scale);
-        if ((wa > 0.0 || wb > 0.0 || wc > 0.0) && (wa < 0.0 || wb < 0.0 || wc < 0.0)) return false;
+        Weights exact;
+        if (!exact_weights(ray.origin, ray.direction, a, b, c, exact)) return false;
+        wa = exact.a;
+        wb = exact.b;
+        wc = exact.c;
     }
     const double sum = wa + wb + wc;
-    if (sum == 0.0) return false; // signs agree, so all three are zero: no area, or seen edge-on
-
     const double u = wb / sum;
     const double v = wc / sum;
     const double z = sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z));

@@ -1,5 +1,7 @@
 #include "scene/tracer.h"
 
+#include "geometry/crossings.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -20,24 +22,25 @@ Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit) const {
             invalid_id,           id.geometry, id.primitive};
 }
 
-Hit Tracer::closest(const Ray& ray) const {
+Hit Tracer::closest(const Ray& ray, SkipList skip) const {
     if (!is_traceable(ray)) return {};
-    const PreparedRay prepared(ray, primitives_->bounds());
+    const PreparedRay prepared(ray, primitives_->bounds(), skip);
     const PrimitiveHit hit = accel_->closest(prepared);
     return hit.is_hit() ? to_caller(prepared, hit) : Hit{};
 }
 
-bool Tracer::any(const Ray& ray) const {
-    return is_traceable(ray) && accel_->any(PreparedRay(ray, primitives_->bounds()));
+bool Tracer::any(const Ray& ray, SkipList skip) const {
+    return is_traceable(ray) && accel_->any(PreparedRay(ray, primitives_->bounds(), skip));
 }
 
-void Tracer::all(const Ray& ray, std::vector<Hit>& hits) const {
+void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
     hits.clear();
     if (!is_traceable(ray)) return;
-    const PreparedRay prepared(ray, primitives_->bounds());
+    const PreparedRay prepared(ray, primitives_->bounds(), skip);
     std::vector<PrimitiveHit> found;
     accel_->all(prepared, found);
     std::sort(found.begin(), found.end());
+    keep_crossings(prepared, *primitives_, found);
     hits.reserve(found.size());
     for (const PrimitiveHit& hit : found) hits.push_back(to_caller(prepared, hit));
 }

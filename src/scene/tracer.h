@@ -37,10 +37,11 @@ class Tracer {
 public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
-    Hit closest(const Ray& ray) const;
-    bool any(const Ray& ray) const;
-    // Replaces `hits` by all hits in order.
-    void all(const Ray& ray, std::vector<Hit>& hits) const;
+    // skip: numbers of this scene's primitives.
+    Hit closest(const Ray& ray, SkipList skip = {}) const;
+    bool any(const Ray& ray, SkipList skip = {}) const;
+    // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
+    void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
 
     const Primitives& primitives() const { return *primitives_; }
     const std::shared_ptr<const Primitives>& shared_primitives() const { return primitives_; }

@@ -81,6 +81,41 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
 }
 
+bool meets_when_nudged(const Scene& scene, const Ray& ray, std::uint32_t towards, std::uint32_t triangle) {
+    using FractionVec = std::array<Fraction, 3>;
+    const auto corner = [&](std::uint32_t t, std::size_t i) { return scene.vertices[scene.triangles[t][i]]; };
+    // As the ray is traced: components that count as zero are zero.
+    const Vec3 d = PreparedRay(ray, {}).direction;
+    FractionVec inside; // the centroid, seen from the origin: the component along the ray changes nothing
+    for (int axis = 0; axis < 3; ++axis) {
+        inside[static_cast<std::size_t>(axis)] =
+            (exact(corner(towards, 0)[axis]) + exact(corner(towards, 1)[axis]) + exact(corner(towards, 2)[axis])) / 3 -
+            exact(ray.origin[axis]);
+    }
+    const std::array<FractionVec, 4> steps = {inside, FractionVec{1, 0, 0}, FractionVec{0, 1, 0}, FractionVec{0, 0, 1}};
+    int first_sign = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 p = corner(triangle, i);
+        const Vec3 q = corner(triangle, (i + 1) % 3);
+        int sign = exact_determinant_value(d, ray.origin, p, q).sign();
+        // The determinant is linear in the origin: its change is that of the edge's moment times the step.
+        FractionVec moment;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int next = (axis + 1) % 3;
+            const int last = (axis + 2) % 3;
+            moment[static_cast<std::size_t>(axis)] =
+                (exact(p[next]) - exact(q[next])) * exact(d[last]) - (exact(p[last]) - exact(q[last])) * exact(d[next]);
+        }
+        for (const FractionVec& step : steps) {
+            if (sign != 0) break;
+            sign = Fraction(step[0] * moment[0] + step[1] * moment[1] + step[2] * moment[2]).sign();
+        }
+        if (first_sign == 0) first_sign = sign;
+        if (sign != first_sign) return false;
+    }
+    return true;
+}
+
 Judge::Judge(const Scene& scene) : triangles_(scene.triangles) {
     exponent_ = no_exponent;
     for (const Vec3& v : scene.vertices) exponent_ = std::min(exponent_, lowest_bit(v));

@@ -31,6 +31,10 @@ Fraction exact(double x);
 // d . ((p - o) x (q - o))
 Fraction exact_determinant_value(const Vec3& d, const Vec3& o, const Vec3& p, const Vec3& q);
 
+// Whether a ray still meets `triangle`, which it touches, when its origin moves by an infinitesimal step towards the inside of
+// `towards`, a far smaller one along x, a smaller one again along y, then z. (No code shared with geometry/crossings.)
+bool meets_when_nudged(const Scene& scene, const Ray& ray, std::uint32_t towards, std::uint32_t triangle);
+
 // Whether the corners lie in one line.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
 

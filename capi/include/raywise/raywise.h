@@ -21,11 +21,17 @@
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
  *   Components of a direction below 2^-500 of its largest count as zero.
  * - Answers. Whether a ray's line meets a triangle is decided by exact arithmetic on the coordinates given; edges and corners
- *   belong to the triangle. t is accurate to 2^-37 of the distance between the ray's origin and the farthest point of the
+ *   belong to the triangle. A triangle seen edge-on, and one without area, is not met. t is accurate to 2^-37 of the distance between the ray's origin and the farthest point of the
  *   scene, u and v to 2^-30, nearly always to all but the last bits; a hit that close to tmin or tmax counts as its rounded t
  *   says, alike everywhere. Where several
  *   triangles are hit at the same t the lowest (instance, geometry, primitive) wins. The bits of an answer do not
  *   depend on the structure, the call, the order or the number of threads.
+ * - All hits. A ray exactly through an edge or a corner meets every triangle around it. Where all hits are asked for, such a
+ *   ray counts as one beside it, moved by less than any number towards the inside of its first hit's triangle: each surface
+ *   is then crossed once. The first of all hits is the closest hit, a ray that hits anything has at least one, and their number
+ *   is even for a ray that starts outside a closed mesh and odd for one that starts inside.
+ * - Epsilons. There are none: nothing is moved, widened or passed over but what tmin, tmax and skip lists say, and those
+ *   leave nothing out unless they are set.
  */
 #ifndef RAYWISE_RAYWISE_H
 #define RAYWISE_RAYWISE_H
@@ -72,7 +78,7 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
 #define RW_ERROR_OUT_OF_MEMORY 2      /* an allocation failed; nothing was changed */
 #define RW_ERROR_NOT_FINITE 3         /* a vertex has a NaN or infinite coordinate */
 #define RW_ERROR_COORDINATE_RANGE 4   /* a float64 vertex lies beyond what a float32 box can hold */
-#define RW_ERROR_INDEX_OUT_OF_RANGE 5 /* a triangle names a vertex that is not there */
+#define RW_ERROR_INDEX_OUT_OF_RANGE 5 /* an index or id names a vertex, geometry or triangle that is not there */
 #define RW_ERROR_TOO_MANY 6           /* more vertices, triangles or rays than the ids can count */
 #define RW_ERROR_ALREADY_COMMITTED 7  /* a committed scene cannot be changed */
 #define RW_ERROR_NOT_COMMITTED 8      /* the scene has to be committed first */
@@ -293,6 +299,22 @@ typedef struct rw_ray {
     double tmax; /* INFINITY for a ray without an end */
 } rw_ray;
 
+/* A triangle by its ids: the last three of a rw_hit, in the same order. */
+typedef struct rw_primitive_id {
+    uint32_t instance;  /* RW_INVALID_ID while the scene has no instances */
+    uint32_t geometry;  /* below the number of meshes */
+    uint32_t primitive; /* below the mesh's triangle_count; RW_INVALID_ID: the entry stands for nothing */
+} rw_primitive_id;
+
+/* What else there is to say of one ray. */
+typedef struct rw_ray_options {
+    uint32_t struct_size;
+    uint32_t skip_count;
+    const rw_primitive_id
+        *skip; /* skip_count triangles the ray passes through without a hit, in any order, repeats allowed;
+                                    NULL when skip_count is 0 */
+} rw_ray_options;
+
 /* One answer. The point hit is origin + t * direction = (1 - u - v) * v0 + u * v1 + v * v2.
  * A miss has t = INFINITY, u = v = 0, a zero normal and RW_INVALID_ID in all ids. */
 typedef struct rw_hit {
@@ -314,6 +336,14 @@ typedef struct rw_rays {
     rw_array direction; /* 3 components, float32 or float64 */
     rw_array tmin;      /* 1 component, float32 or float64; data NULL: 0 */
     rw_array tmax;      /* 1 component, float32 or float64; data NULL: INFINITY */
+    /* Triangles that single rays pass through without a hit: the one a ray starts on, say, or those it has met before.
+     * Entry k is the pair skip_geometry[k], skip_primitive[k]; ids as hits carry them, so that outputs of one batch can be the
+     * input of the next. A primitive with all bits set (RW_INVALID_ID, 2^64 - 1) stands for nothing. Since 0.2. */
+    const uint64_t
+        *skip_offsets; /* count + 1 numbers that never fall: ray i has the entries skip_offsets[i] up to, but without,
+                                     skip_offsets[i + 1]; NULL: entry i alone is for ray i */
+    rw_array skip_geometry;  /* 1 component, uint32 or uint64; data NULL: geometry 0 for all */
+    rw_array skip_primitive; /* 1 component, uint32 or uint64; data NULL: nothing is skipped */
 } rw_rays;
 
 /* Where the answers to many rays go, in the order of the rays. t, u, v and normal are rounded to the output's type
@@ -396,7 +426,7 @@ typedef struct rw_expected_rays {
     int32_t kind;          /* RW_RAYS_ kind */
     uint64_t count;        /* 1 ... RW_RAYS_LIMIT, or RW_RAYS_UNKNOWN; 0 is an error, so that a forgotten count shows */
     const rw_rays *sample; /* some of the caller's rays, for RW_EFFORT_PROBE and RW_EFFORT_MEASURE and RW_RULE_HAPALA;
-                              copied, at most the first 1,000; NULL: rays of that kind are made up */
+                              copied, at most the first 1,000, without their skip lists; NULL: rays of that kind are made up */
 } rw_expected_rays;
 
 /* Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
@@ -518,7 +548,8 @@ RW_API int32_t rw_scene_intersect(const rw_scene *scene, const rw_ray *ray, rw_h
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_occluded(const rw_scene *scene, const rw_ray *ray, int32_t *occluded);
 
-/* Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive).
+/* Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive); a surface crossed at an edge or a
+ * corner counts once (see "All hits" at the top).
  * hits: room for capacity answers, or NULL with capacity 0 to ask for the number only.
  * needed: receives the number of hits there are; not NULL.
  * Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (the closest ones are then written);
@@ -527,12 +558,28 @@ RW_API int32_t rw_scene_occluded(const rw_scene *scene, const rw_ray *ray, int32
 RW_API int32_t rw_scene_intersect_all(const rw_scene *scene, const rw_ray *ray, rw_hit *hits, uint64_t capacity,
                                       uint64_t *needed);
 
-/* Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
+/* Does: as rw_scene_intersect, for a ray that skips triangles.
+ * options: struct_size set; NULL: the defaults.
+ * Returns: also RW_ERROR_INDEX_OUT_OF_RANGE for an id that is not there, and RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.2. */
+RW_API int32_t rw_scene_intersect_with(const rw_scene *scene, const rw_ray *ray, const rw_ray_options *options,
+                                       rw_hit *hit);
+
+/* Does: as rw_scene_occluded, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with.
+ * Threads: any. Since: 0.2. */
+RW_API int32_t rw_scene_occluded_with(const rw_scene *scene, const rw_ray *ray, const rw_ray_options *options,
+                                      int32_t *occluded);
+
+/* Does: as rw_scene_intersect_all, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with, and
+ * RW_ERROR_CAPACITY. Threads: any. Since: 0.2. */
+RW_API int32_t rw_scene_intersect_all_with(const rw_scene *scene, const rw_ray *ray, const rw_ray_options *options,
+                                           rw_hit *hits, uint64_t capacity, uint64_t *needed);
+
+/* Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_with for each.
  * rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
  * the rays, which is not checked.
  * options: struct_size set; NULL: the defaults.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
- * RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
+ * RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits,
                                         const rw_query_options *options);
 
@@ -643,6 +690,18 @@ RW_API int32_t rw_view_occluded(const rw_view *view, const rw_ray *ray, int32_t 
 /* Does: as rw_scene_intersect_all. Threads: any. Since: 0.1. */
 RW_API int32_t rw_view_intersect_all(const rw_view *view, const rw_ray *ray, rw_hit *hits, uint64_t capacity,
                                      uint64_t *needed);
+
+/* Does: as rw_scene_intersect_with. Threads: any. Since: 0.2. */
+RW_API int32_t rw_view_intersect_with(const rw_view *view, const rw_ray *ray, const rw_ray_options *options,
+                                      rw_hit *hit);
+
+/* Does: as rw_scene_occluded_with. Threads: any. Since: 0.2. */
+RW_API int32_t rw_view_occluded_with(const rw_view *view, const rw_ray *ray, const rw_ray_options *options,
+                                     int32_t *occluded);
+
+/* Does: as rw_scene_intersect_all_with. Threads: any. Since: 0.2. */
+RW_API int32_t rw_view_intersect_all_with(const rw_view *view, const rw_ray *ray, const rw_ray_options *options,
+                                          rw_hit *hits, uint64_t capacity, uint64_t *needed);
 
 /* Does: as rw_scene_intersect_batch. Threads: any. Since: 0.1. */
 RW_API int32_t rw_view_intersect_batch(const rw_view *view, const rw_rays *rays, const rw_hits *hits,

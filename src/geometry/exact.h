@@ -1,0 +1,24 @@
+// What float64 cannot settle about a triangle, answered in integers of any length: nothing is rounded, whatever the exponents.
+#pragma once
+
+#include "base/vec.h"
+
+namespace raywise {
+
+// The weights of a triangle's corners at the point where a ray's line meets it, times one common positive or negative factor.
+// a is the determinant direction . ((b - origin) x (c - origin)), and so on in cyclic order.
+struct Weights {
+    double a;
+    double b;
+    double c;
+};
+
+// Whether the line meets the triangle, edges and corners included, and is not in its plane. direction: of a PreparedRay.
+// The weights are exact to a few units in the last place and only set when it does.
+bool exact_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c,
+                   Weights& weights);
+
+// (b - a) x (c - a) times a power of two that brings its largest component near 1; zero exactly when the corners lie in one line.
+Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c);
+
+} // namespace raywise

@@ -1,0 +1,172 @@
+#include "contract/run_cases.h"
+
+#include "contract/check_answers.h"
+#include "contract/exact_hits.h"
+#include "contract/expand.h"
+#include "contract/meshes.h"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+
+namespace raywise::contract {
+namespace {
+
+class CaseRun {
+public:
+    CaseRun(Library& library, const Family& family, const Case& source)
+        : library_(library), capabilities_(library.capabilities()), file_(family.file), case_(source) {
+        result_.family = family.name;
+        result_.name = source.name;
+        result_.convention = source.convention;
+    }
+
+    CaseResult run(std::uint64_t sweep_factor) {
+        try {
+            if (!case_.refusal.empty() && !capabilities_.refuses_bad_meshes) return skip("does not check its meshes");
+            if (case_.geometries.size() > 1 && !capabilities_.many_geometries)
+                return skip("takes one geometry per scene");
+            const ExpandedCase expanded = expand(case_, sweep_factor);
+            if (!case_.refusal.empty()) {
+                expect_refusal(expanded);
+            } else {
+                ask_everything(expanded);
+            }
+        } catch (const MeshFileAbsent& absent) {
+            return skip(absent.what());
+        } catch (const Refusal& refusal) {
+            fail(std::string("the mesh was refused: ") + refusal.what());
+        } catch (const std::exception& error) {
+            fail(std::string("the library failed: ") + error.what());
+        }
+        if (result_.outcome == Outcome::passed && checked_ == 0) return skip("has no call for what is expected");
+        return result_;
+    }
+
+private:
+    CaseResult skip(const std::string& reason) {
+        result_.outcome = Outcome::skipped;
+        result_.reason = reason;
+        return result_;
+    }
+
+    void fail(const std::string& reason) {
+        if (result_.outcome != Outcome::failed) result_.reason = reason;
+        result_.outcome = Outcome::failed;
+    }
+    void fail(const RayGroup& group, const Ray& ray, const std::string& why) {
+        fail(file_ + ":" + std::to_string(group.lines->line) + ": " + why + "; " + text_of(ray));
+    }
+
+    void expect_refusal(const ExpandedCase& expanded) {
+        ++checked_;
+        try {
+            library_.build(expanded.meshes);
+            fail("expected the mesh to be refused as " + case_.refusal + ", it was taken");
+        } catch (const Refusal& refusal) {
+            const std::string text = refusal.what();
+            if (refusal.kind != case_.refusal)
+                fail("expected the mesh to be refused as " + case_.refusal + ", got " + refusal.kind + ": " + text);
+            else if (text.find(case_.mention) == std::string::npos)
+                fail("expected an error that mentions \"" + case_.mention + "\", got: " + text);
+        }
+    }
+
+    void ask_everything(const ExpandedCase& expanded) {
+        const ExactScene exact(expanded.meshes);
+        const std::unique_ptr<Scene> scene = library_.build(expanded.meshes);
+        for (const RayGroup& group : expanded.groups) {
+            std::vector<Answer> closest;
+            for (const Ray& ray : group.rays) {
+                const Answers answers = ask(*scene, ray, capabilities_);
+                closest.push_back(answers.closest);
+                check_ray(group, ray, answers, exact);
+            }
+            for (const Expectation& expectation : group.lines->expectations) {
+                if (expectation.kind == Expected::batch && capabilities_.has_batch)
+                    check_batch(*scene, group, closest);
+                if (expectation.kind == Expected::repeatable)
+                    check_repeatable(*scene, group, closest, static_cast<int>(expectation.numbers[0]));
+            }
+        }
+    }
+
+    void check_ray(const RayGroup& group, const Ray& ray, const Answers& answers, const ExactScene& exact) {
+        ++result_.rays;
+        bool good = true;
+        const double reach = exact.reach(ray);
+        std::string why = disagreement(answers, std::isfinite(reach) ? capabilities_.t_tolerance * reach : 0.0);
+        if (!why.empty()) {
+            good = false;
+            fail(group, ray, why);
+        }
+        for (const Expectation& expectation : group.lines->expectations) {
+            if (expectation.kind == Expected::batch || expectation.kind == Expected::repeatable) continue;
+            const Verdict verdict = check(expectation, ray, answers, exact, capabilities_, why);
+            if (verdict != Verdict::cannot_say) ++checked_;
+            if (verdict != Verdict::not_met) continue;
+            good = false;
+            fail(group, ray, why);
+        }
+        if (!good) ++result_.failed_rays;
+    }
+
+    // Forwards, backwards, and in two halves.
+    void check_batch(Scene& scene, const RayGroup& group, const std::vector<Answer>& single) {
+        ++checked_;
+        const auto compare = [&](std::vector<Ray> rays, std::vector<Answer> expected, const char* how) {
+            std::vector<Answer> answers;
+            scene.closest_batch(rays, answers);
+            if (answers.size() != rays.size())
+                return fail("a batch of " + std::to_string(rays.size()) + " rays has " +
+                            std::to_string(answers.size()) + " answers");
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (same_bits(answers[i], expected[i])) continue;
+                ++result_.failed_rays;
+                fail(group, rays[i], std::string(how) + " " + text_of(answers[i]) + ", alone " + text_of(expected[i]));
+            }
+        };
+        const auto half = static_cast<std::ptrdiff_t>(single.size() / 2);
+        compare(group.rays, single, "in a batch");
+        compare({group.rays.rbegin(), group.rays.rend()}, {single.rbegin(), single.rend()}, "in a backward batch");
+        compare({group.rays.begin() + half, group.rays.end()}, {single.begin() + half, single.end()}, "in half a batch");
+    }
+
+    void check_repeatable(Scene& scene, const RayGroup& group, const std::vector<Answer>& first, int times) {
+        for (int time = 0; time < times; ++time) {
+            ++checked_;
+            for (std::size_t i = 0; i < first.size(); ++i) {
+                const Answers again = ask(scene, group.rays[i], capabilities_);
+                if (same_bits(again.closest, first[i])) continue;
+                ++result_.failed_rays;
+                fail(group, group.rays[i], "asked again " + text_of(again.closest) + ", before " + text_of(first[i]));
+            }
+        }
+    }
+
+    Library& library_;
+    const Capabilities capabilities_;
+    const std::string file_;
+    const Case& case_;
+    CaseResult result_;
+    std::uint64_t checked_ = 0; // expectations that the library has a call for
+};
+
+} // namespace
+
+std::uint64_t LibraryResult::count(Outcome outcome) const {
+    return static_cast<std::uint64_t>(
+        std::count_if(cases.begin(), cases.end(), [=](const CaseResult& result) { return result.outcome == outcome; }));
+}
+
+LibraryResult run_cases(Library& library, const std::vector<Family>& families, const RunOptions& options) {
+    LibraryResult result{library.name(), {}};
+    for (const Family& family : families) {
+        if (options.begins) options.begins(family.name);
+        for (const Case& source : family.cases)
+            result.cases.push_back(CaseRun(library, family, source).run(options.sweep_factor));
+    }
+    return result;
+}
+
+} // namespace raywise::contract
