@@ -120,10 +120,15 @@ std::string fault_in_closest(const Expectation& expectation, const Answer& close
 Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities) {
     Answers answers;
     answers.closest = scene.closest(ray);
-    if (capabilities.has_any) answers.any = scene.any(ray);
-    if (capabilities.has_all) {
-        answers.all.emplace();
-        scene.all(ray, *answers.all);
+    try {
+        if (capabilities.has_any) answers.any = scene.any(ray);
+    } catch (const Inexpressible&) {
+        answers.any.reset();
+    }
+    try {
+        if (capabilities.has_all) scene.all(ray, answers.all.emplace());
+    } catch (const Inexpressible&) {
+        answers.all.reset();
     }
     return answers;
 }

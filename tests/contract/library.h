@@ -42,6 +42,13 @@ public:
     const std::string kind;
 };
 
+// A question for which the library has no words, such as an interval where it knows none. What depends on the answer is skipped,
+// not failed.
+class Inexpressible : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 struct Capabilities {
     bool has_any = true;             // tells whether anything is hit, by a call of its own
     bool has_all = true;             // lists every hit
