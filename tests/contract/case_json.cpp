@@ -129,6 +129,7 @@ Json report_of(const std::vector<LibraryResult>& results) {
                             {"outcome", word_of(one.outcome)},
                             {"reason", one.reason},
                             {"convention", !one.convention.empty()},
+                            {"failed_questions", one.failed_questions},
                             {"rays", one.rays},
                             {"failed_rays", one.failed_rays}});
             if (one.outcome == Outcome::skipped) continue;
@@ -137,6 +138,7 @@ Json report_of(const std::vector<LibraryResult>& results) {
         }
         libraries[result.library] = {{"hard_cases", result.count(Outcome::passed) + result.count(Outcome::failed)},
                                      {"hard_cases_passed", result.count(Outcome::passed)},
+                                     {"hard_cases_passed_by_closest", result.passed_by_closest()},
                                      {"hard_cases_skipped", result.count(Outcome::skipped)}};
     }
     const auto passed = std::count_if(cases.begin(), cases.end(), [](const auto& entry) { return entry.second; });

@@ -83,6 +83,10 @@ void append_table(const std::vector<LibraryResult>& results, std::size_t first, 
     for (const std::string& family : families)
         row(family, [&](const LibraryResult& result) { return tally_of(result, family).text(); });
     row("all", [&](const LibraryResult& result) { return tally_of(result, "").text(); });
+    row("closest hit", [](const LibraryResult& result) {
+        return std::to_string(result.passed_by_closest()) + "/" +
+               std::to_string(result.count(Outcome::passed) + result.count(Outcome::failed));
+    });
     row("skipped", [&](const LibraryResult& result) { return std::to_string(tally_of(result, "").skipped); });
 }
 
@@ -90,7 +94,7 @@ void append_table(const std::vector<LibraryResult>& results, std::size_t first, 
 
 std::string table_of(const std::vector<LibraryResult>& results) {
     std::vector<std::string> families;
-    std::size_t name_width = 7;
+    std::size_t name_width = std::string("closest hit").size();
     for (const LibraryResult& result : results) {
         for (const CaseResult& one : result.cases) {
             if (std::find(families.begin(), families.end(), one.family) == families.end())
@@ -139,7 +143,7 @@ std::string table_of(const std::vector<LibraryResult>& results) {
     for (const auto& [what, libraries] : failures) {
         std::string names;
         for (const std::string& name : libraries) names += (names.empty() ? "" : ", ") + name;
-        text += wrapped(what, "    ") + wrapped("    -- " + names, "       ");
+        text += wrapped(what, "    ") + "    " + wrapped("failed by " + names, "    ");
     }
     if (!skipped.empty()) text += "skipped:\n";
     for (const auto& [reason, cases] : skipped) text += wrapped(std::to_string(cases) + " cases, " + reason, "    ");

@@ -75,7 +75,7 @@ std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double 
         if (!bounds.first_certain) return "";
         return "expected a hit at t " + text_of(*bounds.first_certain) + said(closest);
     }
-    const std::string fault = bounds.fault_in_place(closest);
+    std::string fault = bounds.fault_in_place(closest);
     if (!fault.empty()) return fault;
     if (bounds.first_certain && closest.t > *bounds.first_certain + 2.0 * tolerance)
         return "expected the closest hit, at t " + text_of(*bounds.first_certain) + said(closest);
@@ -133,11 +133,14 @@ Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities) {
     return answers;
 }
 
-std::string disagreement(const Answers& answers, double t_tolerance) {
+std::string disagreement(const Answers& answers, double t_tolerance, const char*& question) {
     const Answer& closest = answers.closest;
+    question = "closest";
     if (closest.hit && std::isnan(closest.t)) return "a hit with t NaN";
+    question = "any";
     if (answers.any && *answers.any != closest.hit)
         return std::string("any-hit says ") + (*answers.any ? "hit" : "miss") + ", closest says " + text_of(closest);
+    question = "all";
     if (!answers.all) return "";
     const std::vector<Answer>& all = *answers.all;
     if (all.empty() == closest.hit) return "all-hits says " + list_of(all) + ", closest says " + text_of(closest);

@@ -20,8 +20,9 @@ struct Answers {
 // Throws Inexpressible when the library cannot be asked for the closest hit; what else it cannot be asked stays empty.
 Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities);
 
-// What is wrong with them, whatever is expected: any, all and closest are about the same hits. Empty: nothing.
-std::string disagreement(const Answers& answers, double t_tolerance);
+// What is wrong with them, whatever is expected: any, all and closest are about the same hits. Empty: nothing. `question`
+// receives which of them is in doubt: "closest", "any" or "all".
+std::string disagreement(const Answers& answers, double t_tolerance, const char*& question);
 
 enum class Verdict {
     met,

@@ -46,9 +46,9 @@ public:
         } catch (const Inexpressible& inexpressible) {
             return skip(inexpressible.what());
         } catch (const Refusal& refusal) {
-            fail(std::string("the mesh was refused: ") + refusal.what());
+            fail("mesh", std::string("the mesh was refused: ") + refusal.what());
         } catch (const std::exception& error) {
-            fail(std::string("the library failed: ") + error.what());
+            fail("library", std::string("the library failed: ") + error.what());
         }
         if (result_.outcome == Outcome::passed && checked_ == 0)
             return skip(inexpressible_.empty() ? "has no call for what is expected" : inexpressible_);
@@ -62,25 +62,26 @@ private:
         return result_;
     }
 
-    void fail(const std::string& reason) {
+    void fail(const char* question, const std::string& reason) {
         if (result_.outcome != Outcome::failed) result_.reason = reason;
         result_.outcome = Outcome::failed;
+        result_.failed_questions.insert(question);
     }
-    void fail(const RayGroup& group, const Ray& ray, const std::string& why) {
-        fail(file_ + ":" + std::to_string(group.lines->line) + ": " + why + "; " + text_of(ray));
+    void fail(const char* question, const RayGroup& group, const Ray& ray, const std::string& why) {
+        fail(question, file_ + ":" + std::to_string(group.lines->line) + ": " + why + "; " + text_of(ray));
     }
 
     void expect_refusal(const ExpandedCase& expanded) {
         ++checked_;
         try {
             library_.build(expanded.meshes);
-            fail("expected the mesh to be refused as " + case_.refusal + ", it was taken");
+            fail("mesh", "expected the mesh to be refused as " + case_.refusal + ", it was taken");
         } catch (const Refusal& refusal) {
             const std::string text = refusal.what();
             if (refusal.kind != case_.refusal)
-                fail("expected the mesh to be refused as " + case_.refusal + ", got " + refusal.kind + ": " + text);
+                fail("mesh", "expected the mesh to be refused as " + case_.refusal + ", got " + refusal.kind + ": " + text);
             else if (text.find(case_.mention) == std::string::npos)
-                fail("expected an error that mentions \"" + case_.mention + "\", got: " + text);
+                fail("mesh", "expected an error that mentions \"" + case_.mention + "\", got: " + text);
         }
     }
 
@@ -112,10 +113,12 @@ private:
         ++result_.rays;
         bool good = true;
         const double reach = exact.reach(ray);
-        std::string why = disagreement(answers, std::isfinite(reach) ? capabilities_.t_tolerance * reach : 0.0);
+        const char* in_doubt = "";
+        std::string why =
+            disagreement(answers, std::isfinite(reach) ? capabilities_.t_tolerance * reach : 0.0, in_doubt);
         if (!why.empty()) {
             good = false;
-            fail(group, ray, why);
+            fail(in_doubt, group, ray, why);
         }
         for (const Expectation& expectation : group.lines->expectations) {
             if (expectation.kind == Expected::batch || expectation.kind == Expected::repeatable) continue;
@@ -123,7 +126,7 @@ private:
             if (verdict != Verdict::cannot_say) ++checked_;
             if (verdict != Verdict::not_met) continue;
             good = false;
-            fail(group, ray, why);
+            fail(describe(expectation.kind).needs_all ? "all" : "closest", group, ray, why);
         }
         if (!good) ++result_.failed_rays;
     }
@@ -135,12 +138,12 @@ private:
             std::vector<Answer> answers;
             scene.closest_batch(rays, answers);
             if (answers.size() != rays.size())
-                return fail("a batch of " + std::to_string(rays.size()) + " rays has " +
+                return fail("batch", "a batch of " + std::to_string(rays.size()) + " rays has " +
                             std::to_string(answers.size()) + " answers");
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (same_bits(answers[i], expected[i])) continue;
                 ++result_.failed_rays;
-                fail(group, rays[i], std::string(how) + " " + text_of(answers[i]) + ", alone " + text_of(expected[i]));
+                fail("batch", group, rays[i], std::string(how) + " " + text_of(answers[i]) + ", alone " + text_of(expected[i]));
             }
         };
         const auto half = static_cast<std::ptrdiff_t>(single.size() / 2);
@@ -156,7 +159,7 @@ private:
                 const Answers again = ask(scene, group.rays[i], capabilities_);
                 if (same_bits(again.closest, first[i])) continue;
                 ++result_.failed_rays;
-                fail(group, group.rays[i], "asked again " + text_of(again.closest) + ", before " + text_of(first[i]));
+                fail("again", group, group.rays[i], "asked again " + text_of(again.closest) + ", before " + text_of(first[i]));
             }
         }
     }
@@ -175,6 +178,14 @@ private:
 std::uint64_t LibraryResult::count(Outcome outcome) const {
     return static_cast<std::uint64_t>(
         std::count_if(cases.begin(), cases.end(), [=](const CaseResult& result) { return result.outcome == outcome; }));
+}
+
+std::uint64_t LibraryResult::passed_by_closest() const {
+    return static_cast<std::uint64_t>(std::count_if(cases.begin(), cases.end(), [](const CaseResult& result) {
+        const auto& failed = result.failed_questions;
+        return result.outcome != Outcome::skipped && failed.count("closest") + failed.count("mesh") == 0 &&
+               failed.count("library") == 0;
+    }));
 }
 
 LibraryResult run_cases(Library& library, const std::vector<Family>& families, const RunOptions& options) {

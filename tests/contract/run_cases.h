@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct CaseResult {
     std::string convention; // as in the case
     Outcome outcome = Outcome::passed;
     std::string reason; // of the first failure, or of being skipped
+    // What failed: "closest", "any", "all", "batch", "again" (asked twice), "mesh" (taken or refused wrongly) or "library".
+    std::set<std::string> failed_questions;
     std::uint64_t rays = 0;
     std::uint64_t failed_rays = 0;
 };
@@ -28,6 +31,8 @@ struct LibraryResult {
     std::vector<CaseResult> cases; // in the order of the families
 
     std::uint64_t count(Outcome outcome) const;
+    // Cases that pass when only the closest hit is asked for.
+    std::uint64_t passed_by_closest() const;
 };
 
 struct RunOptions {
