@@ -37,17 +37,26 @@ struct Bounds {
         wide.tmin -= tolerance;
         wide.tmax += tolerance;
         possible = exact.answers(ray.tmin <= ray.tmax ? wide : ray);
-        const auto surely = [&](const ExactAnswer& answer) {
-            const auto t = answer.t.convert_to<double>();
-            return t >= ray.tmin + tolerance && t <= ray.tmax - tolerance;
-        };
         for (const ExactAnswer& answer : possible.touched) {
-            if (!surely(answer)) {
-                all_certain = false;
-            } else if (!first_certain) {
-                first_certain = answer.t.convert_to<double>();
-            }
+            const auto t = answer.t.convert_to<double>();
+            certain.push_back(t >= ray.tmin + tolerance && t <= ray.tmax - tolerance);
+            if (certain.back() && !first_certain) first_certain = t;
         }
+    }
+
+    bool all_certain() const { return std::find(certain.begin(), certain.end(), false) == certain.end(); }
+
+    // Whether these are all triangles touched, each once: an honest list, though no count of crossings.
+    bool are_all_touched(const std::vector<Answer>& all) const {
+        std::size_t listed = 0;
+        for (std::size_t i = 0; i < possible.touched.size(); ++i) {
+            const auto times = std::count_if(all.begin(), all.end(), [&](const Answer& answer) {
+                return possible.touched[i].id == id_of(answer) && fault_in_place(answer).empty();
+            });
+            if (times > 1 || (times == 0 && certain[i])) return false;
+            listed += static_cast<std::size_t>(times);
+        }
+        return listed == all.size();
     }
 
     // What is wrong with a triangle being hit there; empty: nothing.
@@ -63,13 +72,13 @@ struct Bounds {
 
     ExactAnswers possible;
     std::optional<double> first_certain; // t of the closest hit that has to be found
-    bool all_certain = true;             // every possible hit has to be found
+    std::vector<bool> certain;           // of each possible hit: whether it has to be found
 
 private:
     double tolerance_;
 };
 
-std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double tolerance) {
+std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double tolerance, bool counts_crossings) {
     const Answer& closest = answers.closest;
     if (!closest.hit) {
         if (!bounds.first_certain) return "";
@@ -79,7 +88,8 @@ std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double 
     if (!fault.empty()) return fault;
     if (bounds.first_certain && closest.t > *bounds.first_certain + 2.0 * tolerance)
         return "expected the closest hit, at t " + text_of(*bounds.first_certain) + said(closest);
-    const bool countable = answers.all && bounds.all_certain && bounds.possible.count_certain;
+    const bool countable = answers.all && bounds.all_certain() && bounds.possible.count_certain;
+    if (!counts_crossings && answers.all && bounds.are_all_touched(*answers.all)) return "";
     if (countable && answers.all->size() != bounds.possible.count())
         return "expected " + std::to_string(bounds.possible.count()) + " hits in all, got " + list_of(*answers.all);
     return "";
@@ -160,11 +170,13 @@ Verdict check(const Expectation& expectation, const Ray& ray, const Answers& ans
     const double reach = exact.reach(ray);
     const double tolerance = std::isfinite(reach) ? capabilities.t_tolerance * reach : 0.0;
     if (expectation.kind == Expected::exact) {
-        why = fault_in_exact(answers, Bounds(exact, ray, tolerance), tolerance);
+        why = fault_in_exact(answers, Bounds(exact, ray, tolerance), tolerance, capabilities.counts_crossings);
     } else if (expectation.kind == Expected::plane) {
         why = answers.closest.hit ? Bounds(exact, ray, tolerance).fault_in_place(answers.closest) : "";
     } else if (describe(expectation.kind).needs_all) {
         why = fault_in_all(expectation, *answers.all, tolerance);
+        if (!why.empty() && !capabilities.counts_crossings && Bounds(exact, ray, tolerance).are_all_touched(*answers.all))
+            why.clear();
     } else {
         why = fault_in_closest(expectation, answers.closest, tolerance);
     }

@@ -149,6 +149,7 @@ public:
     Capabilities capabilities() const override {
         Capabilities capabilities;
         capabilities.orders_ties = false;
+        capabilities.counts_crossings = false;
         capabilities.t_tolerance = 1e-9;
         return capabilities;
     }

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -46,7 +47,8 @@ void close_descriptor(int& descriptor) {
 
 } // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log, std::uint64_t most_memory) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log, std::uint64_t most_memory)
+    : log_(log) {
     // Writing to a child that has died should be an error of that write.
     signal(SIGPIPE, SIG_IGN);
 
@@ -56,6 +58,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::s
 
     int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (log_file < 0) system_failure(log.c_str());
+    log_begins_ = lseek(log_file, 0, SEEK_END);
     int in[2];
     int out[2];
     make_pipe(in);
@@ -125,6 +128,19 @@ void ChildProcess::lost(const std::string& reason) {
     throw ChildLost(reason.empty() ? ending : reason);
 }
 
+// The failed assertion, or else the last line, that the child has written: " (...)", or nothing.
+std::string ChildProcess::last_words() const {
+    constexpr std::size_t enough = 160;
+    std::ifstream log(log_, std::ios::binary);
+    log.seekg(log_begins_);
+    std::string last;
+    for (std::string line; std::getline(log, line);)
+        if (!line.empty()) last = line;
+    if (const auto assertion = last.find("Assertion `"); assertion != std::string::npos) last.erase(0, assertion);
+    if (last.size() > enough) last.resize(enough);
+    return last.empty() ? "" : " (" + last + ")";
+}
+
 std::string ChildProcess::end() {
     close_descriptor(to_child_);
     close_descriptor(from_child_);
@@ -133,7 +149,7 @@ std::string ChildProcess::end() {
     while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
     pid_ = -1;
-    if (WIFSIGNALED(status)) return std::string("crashed: ") + strsignal(WTERMSIG(status));
+    if (WIFSIGNALED(status)) return std::string("crashed: ") + strsignal(WTERMSIG(status)) + last_words();
     return "the process ended with status " + std::to_string(WEXITSTATUS(status));
 }
 

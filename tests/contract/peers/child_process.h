@@ -36,8 +36,11 @@ public:
 private:
     void wait_until_ready(int descriptor, short event, Deadline deadline);
     [[noreturn]] void lost(const std::string& reason);
+    std::string last_words() const;
     std::string end(); // waits for the child, and tells how it ended
 
+    std::string log_;
+    off_t log_begins_ = 0; // where this child's part of the log does
     pid_t pid_ = -1;
     int to_child_ = -1;
     int from_child_ = -1;

@@ -73,7 +73,10 @@ void collect(const RTCFilterFunctionNArguments* arguments) {
 class EmbreeScene : public Scene {
 public:
     EmbreeScene(RTCDevice device, EmbreeFlags flags, const std::vector<Mesh>& meshes) : scene_(rtcNewScene(device)) {
-        rtcSetSceneFlags(scene_.get(), flags == EmbreeFlags::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+        // Without this flag a scene takes no filter function with a query; it changes no arithmetic.
+        int scene_flags = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+        if (flags == EmbreeFlags::robust) scene_flags |= RTC_SCENE_FLAG_ROBUST;
+        rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(scene_flags));
         for (std::size_t i = 0; i < meshes.size(); ++i) add(device, meshes[i], static_cast<unsigned int>(i));
         rtcCommitScene(scene_.get());
         check(device, "building");
@@ -155,6 +158,7 @@ public:
     Capabilities capabilities() const override {
         Capabilities capabilities;
         capabilities.orders_ties = false;
+        capabilities.counts_crossings = false;
         capabilities.t_tolerance = 1e-5;
         return capabilities;
     }

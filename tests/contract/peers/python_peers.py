@@ -152,6 +152,7 @@ def description(name, version, **capabilities):
         "refuses_bad_meshes": False,
         "many_geometries": False,
         "orders_ties": False,
+        "counts_crossings": False,
         "t_tolerance": 1e-9,
     }
     told.update(capabilities)
@@ -207,6 +208,13 @@ class TrimeshBase:
         answers = self.answers(ray, triangles, locations)
         return answers[0] if answers else None
 
+    def all(self, ray):
+        # With locations, as trimesh advises those who count: hits at the same place are then one.
+        triangles, _, locations = self.intersector.intersects_id(
+            **self.question(ray), multiple_hits=True, return_locations=True
+        )
+        return self.answers(ray, triangles, locations)
+
     def any(self, ray):
         return bool(self.intersector.intersects_any(**self.question(ray))[0])
 
@@ -222,19 +230,6 @@ class Trimesh(TrimeshBase):
 
         return RayMeshIntersector(mesh)
 
-    def all(self, ray):
-        # The intersector's own methods tell locations only after merging those that are alike; this is what they call.
-        from trimesh.ray.ray_triangle import ray_triangle_id
-
-        triangles, _, locations = ray_triangle_id(
-            triangles=self.mesh.triangles,
-            triangles_normal=self.mesh.face_normals,
-            tree=self.mesh.triangles_tree,
-            multiple_hits=True,
-            **self.question(ray),
-        )
-        return self.answers(ray, triangles, locations)
-
 
 class TrimeshWithEmbreex(TrimeshBase):
     """trimesh as it is once embreex is installed: Embree 4 on a mesh scaled to a common size, hit after hit."""
@@ -246,12 +241,6 @@ class TrimeshWithEmbreex(TrimeshBase):
         from trimesh.ray.ray_pyembree import RayMeshIntersector
 
         return RayMeshIntersector(mesh)
-
-    def all(self, ray):
-        triangles, _, locations = self.intersector.intersects_id(
-            **self.question(ray), multiple_hits=True, return_locations=True
-        )
-        return self.answers(ray, triangles, locations)
 
 
 class Embreex:

@@ -1,6 +1,7 @@
 // A made-up library for process_test.cpp, which does what a ray's origin asks for.
 #include "contract/peers/server.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <thread>
@@ -18,7 +19,10 @@ public:
     Answer closest(const Ray& ray) override {
         if (ray.origin.x == 1.0) throw Inexpressible("no words for it");
         if (ray.origin.x == 2.0) throw std::runtime_error("it went wrong");
-        if (ray.origin.x == 3.0) std::abort();
+        if (ray.origin.x == 3.0) {
+            std::fputs("toy.cpp:1: the toy: Assertion `true' failed.\n", stderr);
+            std::abort();
+        }
         if (ray.origin.x == 4.0) std::this_thread::sleep_for(std::chrono::hours(1));
         if (ray.origin.x == 5.0) std::_Exit(9);
         Answer answer;
@@ -49,6 +53,7 @@ public:
         Capabilities capabilities;
         capabilities.has_batch = true;
         capabilities.orders_ties = false;
+        capabilities.counts_crossings = false;
         capabilities.t_tolerance = 0.25;
         return capabilities;
     }
