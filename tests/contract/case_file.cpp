@@ -37,8 +37,7 @@ std::string one_of(const Rows& rows, Name name) {
 }
 
 bool is_name(const std::string& text) {
-    return !text.empty() &&
-           text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+    return !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
 }
 
 class Parser {
@@ -80,14 +79,22 @@ private:
     };
     static const std::vector<Keyword>& keywords() {
         static const std::vector<Keyword> all = {
-            {"family", &Parser::read_family, false},       {"about", &Parser::read_about, false},
-            {"precision", &Parser::read_precision, false}, {"case", &Parser::read_case, false},
-            {"source", &Parser::read_source, true},        {"convention", &Parser::read_convention, true},
-            {"geometry", &Parser::read_geometry, true},    {"v", &Parser::read_vertex, true},
-            {"f", &Parser::read_triangle, true},           {"mesh", &Parser::read_mesh, true},
-            {"scale", &Parser::read_change, true},         {"move", &Parser::read_change, true},
-            {"grid", &Parser::read_change, true},          {"ray", &Parser::read_ray, true},
-            {"rays", &Parser::read_rays, true},            {"expect", &Parser::read_expect, true},
+            {"family", &Parser::read_family, false},
+            {"about", &Parser::read_about, false},
+            {"precision", &Parser::read_precision, false},
+            {"case", &Parser::read_case, false},
+            {"source", &Parser::read_source, true},
+            {"convention", &Parser::read_convention, true},
+            {"geometry", &Parser::read_geometry, true},
+            {"v", &Parser::read_vertex, true},
+            {"f", &Parser::read_triangle, true},
+            {"mesh", &Parser::read_mesh, true},
+            {"scale", &Parser::read_change, true},
+            {"move", &Parser::read_change, true},
+            {"grid", &Parser::read_change, true},
+            {"ray", &Parser::read_ray, true},
+            {"rays", &Parser::read_rays, true},
+            {"expect", &Parser::read_expect, true},
         };
         return all;
     }
@@ -98,7 +105,8 @@ private:
         if (found == all.end()) {
             fail("expected " + one_of(all, [](const Keyword& k) { return k.word; }) + ", got " + in_quotes(words_[0]));
         }
-        if (family_.name.empty() && words_[0] != "family") fail("expected \"family NAME\" first, got " + in_quotes(words_[0]));
+        if (family_.name.empty() && words_[0] != "family")
+            fail("expected \"family NAME\" first, got " + in_quotes(words_[0]));
         if (found->inside_case && !in_case_) fail("expected \"case NAME\" before " + in_quotes(words_[0]));
         (this->*found->read)();
     }
@@ -133,12 +141,12 @@ private:
     }
     double number_in(std::size_t i, const Parameter& parameter) const {
         const double value = number(i, parameter.name);
-        const bool fits = value >= parameter.lowest && value <= parameter.highest &&
-                          (!parameter.whole || value == std::floor(value));
+        const bool fits =
+            value >= parameter.lowest && value <= parameter.highest && (!parameter.whole || value == std::floor(value));
         if (!fits) {
             fail("expected " + std::string(parameter.whole ? "a whole number" : "a number") + " from " +
-                 text_of(parameter.lowest) + " to " + text_of(parameter.highest) + " for " + parameter.name +
-                 ", got " + in_quotes(words_[i]));
+                 text_of(parameter.lowest) + " to " + text_of(parameter.highest) + " for " + parameter.name + ", got " +
+                 in_quotes(words_[i]));
         }
         return value;
     }
@@ -386,27 +394,29 @@ private:
         using Takes = ExpectationKind::Takes;
         Expectation expectation{kind.kind, {}, {}, line_};
         switch (kind.takes) {
-        case Takes::nothing: end_of_line(2); break;
-        case Takes::one_number:
-            expectation.numbers.push_back(number(2, kind.word));
-            end_of_line(3);
-            break;
-        case Takes::count:
-            expectation.numbers = parameters_from(2, {{"the number of times", 0, most_rays, true}});
-            break;
-        case Takes::numbers:
-            for (std::size_t i = 2; i == 2 || i < words_.size(); ++i)
-                expectation.numbers.push_back(number(i, kind.word));
-            if (!std::is_sorted(expectation.numbers.begin(), expectation.numbers.end()))
-                fail("expected numbers in ascending order, got " + in_quotes(rest_));
-            break;
-        case Takes::ids:
-            for (std::size_t i = 2; i == 2 || i < words_.size(); ++i) expectation.ids.push_back(id(i));
-            break;
-        case Takes::one_id:
-            expectation.ids.push_back(id(2));
-            end_of_line(3);
-            break;
+            case Takes::nothing:
+                end_of_line(2);
+                break;
+            case Takes::one_number:
+                expectation.numbers.push_back(number(2, kind.word));
+                end_of_line(3);
+                break;
+            case Takes::count:
+                expectation.numbers = parameters_from(2, {{"the number", 0, most_rays, true}});
+                break;
+            case Takes::numbers:
+                for (std::size_t i = 2; i == 2 || i < words_.size(); ++i)
+                    expectation.numbers.push_back(number(i, kind.word));
+                if (!std::is_sorted(expectation.numbers.begin(), expectation.numbers.end()))
+                    fail("expected numbers in ascending order, got " + in_quotes(rest_));
+                break;
+            case Takes::ids:
+                for (std::size_t i = 2; i == 2 || i < words_.size(); ++i) expectation.ids.push_back(id(i));
+                break;
+            case Takes::one_id:
+                expectation.ids.push_back(id(2));
+                end_of_line(3);
+                break;
         }
         return expectation;
     }

@@ -120,7 +120,7 @@ std::string table_of(const std::vector<LibraryResult>& results) {
 
     // Several structures of one library often fail alike: said once.
     std::vector<std::pair<std::string, std::vector<std::string>>> failures; // text, libraries
-    std::map<std::string, std::uint64_t> skipped;                          // reason, cases
+    std::map<std::string, std::uint64_t> skipped;                           // reason, cases
     for (const LibraryResult& result : results) {
         for (const CaseResult& one : result.cases) {
             if (one.outcome == Outcome::skipped) ++skipped[result.library + ": " + one.reason];

@@ -98,14 +98,18 @@ std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double 
 std::string fault_in_all(const Expectation& expectation, const std::vector<Answer>& all, double tolerance) {
     const std::string got = ", got " + list_of(all);
     switch (expectation.kind) {
-    case Expected::count:
-        if (all.size() == static_cast<std::size_t>(expectation.numbers[0])) return "";
-        return "expected " + std::to_string(static_cast<std::size_t>(expectation.numbers[0])) + " hits in all" + got;
-    case Expected::even:
-    case Expected::outside: return all.size() % 2 == 0 ? "" : "expected an even number of hits" + got;
-    case Expected::odd:
-    case Expected::inside: return all.size() % 2 == 1 ? "" : "expected an odd number of hits" + got;
-    default: break;
+        case Expected::count:
+            if (all.size() == static_cast<std::size_t>(expectation.numbers[0])) return "";
+            return "expected " + std::to_string(static_cast<std::size_t>(expectation.numbers[0])) + " hits in all" +
+                   got;
+        case Expected::even:
+        case Expected::outside:
+            return all.size() % 2 == 0 ? "" : "expected an even number of hits" + got;
+        case Expected::odd:
+        case Expected::inside:
+            return all.size() % 2 == 1 ? "" : "expected an odd number of hits" + got;
+        default:
+            break;
     }
     bool same = all.size() == expectation.numbers.size();
     for (std::size_t i = 0; same && i < all.size(); ++i) same = near(all[i].t, expectation.numbers[i], tolerance);
@@ -117,10 +121,18 @@ std::string fault_in_closest(const Expectation& expectation, const Answer& close
                                            expectation.ids.end();
     bool met = false;
     switch (expectation.kind) {
-    case Expected::hit: met = closest.hit; break;
-    case Expected::miss: met = !closest.hit; break;
-    case Expected::t: met = closest.hit && near(closest.t, expectation.numbers[0], tolerance); break;
-    default: met = has_id; break;
+        case Expected::hit:
+            met = closest.hit;
+            break;
+        case Expected::miss:
+            met = !closest.hit;
+            break;
+        case Expected::t:
+            met = closest.hit && near(closest.t, expectation.numbers[0], tolerance);
+            break;
+        default:
+            met = has_id;
+            break;
     }
     return met ? "" : "expected " + text_of(expectation) + said(closest);
 }
@@ -155,7 +167,8 @@ std::string disagreement(const Answers& answers, double t_tolerance, const char*
     const std::vector<Answer>& all = *answers.all;
     if (all.empty() == closest.hit) return "all-hits says " + list_of(all) + ", closest says " + text_of(closest);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (std::isnan(all[i].t) || (i > 0 && all[i].t < all[i - 1].t)) return "all-hits are not sorted: " + list_of(all);
+        if (std::isnan(all[i].t) || (i > 0 && all[i].t < all[i - 1].t))
+            return "all-hits are not sorted: " + list_of(all);
     }
     if (!all.empty() && !near(all[0].t, closest.t, 2.0 * t_tolerance))
         return "the first of all hits is at t " + text_of(all[0].t) + ", closest says " + text_of(closest);

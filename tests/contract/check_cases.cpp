@@ -23,39 +23,44 @@ std::string contradiction(const Expectation& expectation, const ExactAnswers& ex
     const bool hit = !exact.touched.empty();
     const std::string count = std::to_string(exact.count()) + " in all";
     switch (expectation.kind) {
-    case Expected::hit: return hit ? "" : "a miss";
-    case Expected::miss: return hit ? "a hit at t " + text_of(t_of(exact.touched[0])) : "";
-    case Expected::t:
-        if (!hit) return "a miss";
-        return near(t_of(exact.touched[0]), expectation.numbers[0]) ? "" : "t " + text_of(t_of(exact.touched[0]));
-    case Expected::primitive:
-    case Expected::lowest: {
-        if (!hit) return "a miss";
-        const auto& ids = expectation.ids;
-        const PrimitiveId id = exact.touched[0].id;
-        if (std::find(ids.begin(), ids.end(), id) != ids.end()) return "";
-        return "triangle " + std::to_string(id.geometry) + ":" + std::to_string(id.primitive);
-    }
-    case Expected::count:
-        if (!exact.count_certain) return "a number that depends on which side the ray is moved to";
-        return exact.count() == static_cast<std::size_t>(expectation.numbers[0]) ? "" : count;
-    case Expected::even:
-    case Expected::outside: return exact.count() % 2 == 0 ? "" : count;
-    case Expected::odd:
-    case Expected::inside: return exact.count() % 2 == 1 ? "" : count;
-    case Expected::all_t: {
-        if (!exact.count_certain) return "hits that depend on which side the ray is moved to";
-        std::vector<double> counted;
-        for (const ExactAnswer& answer : exact.touched) {
-            if (answer.counted) counted.push_back(t_of(answer));
+        case Expected::hit:
+            return hit ? "" : "a miss";
+        case Expected::miss:
+            return hit ? "a hit at t " + text_of(t_of(exact.touched[0])) : "";
+        case Expected::t:
+            if (!hit) return "a miss";
+            return near(t_of(exact.touched[0]), expectation.numbers[0]) ? "" : "t " + text_of(t_of(exact.touched[0]));
+        case Expected::primitive:
+        case Expected::lowest: {
+            if (!hit) return "a miss";
+            const auto& ids = expectation.ids;
+            const PrimitiveId id = exact.touched[0].id;
+            if (std::find(ids.begin(), ids.end(), id) != ids.end()) return "";
+            return "triangle " + std::to_string(id.geometry) + ":" + std::to_string(id.primitive);
         }
-        const auto& numbers = expectation.numbers;
-        return std::equal(counted.begin(), counted.end(), numbers.begin(), numbers.end(), near) ? "" : count;
-    }
-    case Expected::exact:
-    case Expected::plane:
-    case Expected::batch:
-    case Expected::repeatable: return ""; // nothing that a file could get wrong
+        case Expected::count:
+            if (!exact.count_certain) return "a number that depends on which side the ray is moved to";
+            return exact.count() == static_cast<std::size_t>(expectation.numbers[0]) ? "" : count;
+        case Expected::even:
+        case Expected::outside:
+            return exact.count() % 2 == 0 ? "" : count;
+        case Expected::odd:
+        case Expected::inside:
+            return exact.count() % 2 == 1 ? "" : count;
+        case Expected::all_t: {
+            if (!exact.count_certain) return "hits that depend on which side the ray is moved to";
+            std::vector<double> counted;
+            for (const ExactAnswer& answer : exact.touched) {
+                if (answer.counted) counted.push_back(t_of(answer));
+            }
+            const auto& numbers = expectation.numbers;
+            return std::equal(counted.begin(), counted.end(), numbers.begin(), numbers.end(), near) ? "" : count;
+        }
+        case Expected::exact:
+        case Expected::plane:
+        case Expected::batch:
+        case Expected::repeatable:
+            return ""; // nothing that a file could get wrong
     }
     return "";
 }
@@ -80,11 +85,12 @@ std::string fault_in_refusal(const ExpandedCase& expanded) {
     return "nothing in the meshes is " + kind;
 }
 
-void check_case(const Family& family, const Case& source, std::vector<std::string>& faults) {
+void check_case(const Family& family, const Case& source, std::uint64_t sweep_factor,
+                std::vector<std::string>& faults) {
     const auto place = [&](int line) { return family.file + ":" + std::to_string(line) + ": "; };
     ExpandedCase expanded;
     try {
-        expanded = expand(source, 1);
+        expanded = expand(source, sweep_factor);
     } catch (const MeshFileAbsent&) {
         return; // nothing to look at on this machine
     }
@@ -113,10 +119,10 @@ void check_case(const Family& family, const Case& source, std::vector<std::strin
 
 } // namespace
 
-std::vector<std::string> faults_of(const std::vector<Family>& families) {
+std::vector<std::string> faults_of(const std::vector<Family>& families, std::uint64_t sweep_factor) {
     std::vector<std::string> faults;
     for (const Family& family : families) {
-        for (const Case& source : family.cases) check_case(family, source, faults);
+        for (const Case& source : family.cases) check_case(family, source, sweep_factor, faults);
     }
     return faults;
 }

@@ -4,12 +4,13 @@
 
 #include "contract/case_file.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace raywise::contract {
 
 // One text per fault, with file and line; at most a few for each case.
-std::vector<std::string> faults_of(const std::vector<Family>& families);
+std::vector<std::string> faults_of(const std::vector<Family>& families, std::uint64_t sweep_factor);
 
 } // namespace raywise::contract

@@ -5,8 +5,8 @@
 #include "contract/raywise_library.h"
 #include "contract/run_cases.h"
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -55,8 +55,8 @@ std::vector<Family> wanted_families(const Options& options) {
     insist_on_known(options.families, names, "family");
     families.erase(std::remove_if(families.begin(), families.end(),
                                   [&](const Family& family) {
-                                      return std::find(options.families.begin(), options.families.end(),
-                                                       family.name) == options.families.end();
+                                      return std::find(options.families.begin(), options.families.end(), family.name) ==
+                                             options.families.end();
                                   }),
                    families.end());
     return families;
@@ -90,8 +90,8 @@ void list(const std::vector<Family>& families) {
     }
 }
 
-bool files_are_sound(const std::vector<Family>& families) {
-    const std::vector<std::string> faults = faults_of(families);
+bool files_are_sound(const std::vector<Family>& families, std::uint64_t sweep_factor) {
+    const std::vector<std::string> faults = faults_of(families, sweep_factor);
     for (const std::string& fault : faults) std::printf("%s\n", fault.c_str());
     std::size_t cases = 0;
     for (const Family& family : families) cases += family.cases.size();
@@ -158,7 +158,7 @@ int run(int argc, char** argv) {
         list(families);
         return 0;
     }
-    if (options.check) return files_are_sound(families) ? 0 : 1;
+    if (options.check) return files_are_sound(families, options.sweep_factor) ? 0 : 1;
     if (!options.export_file.empty()) {
         write(options.export_file, export_of(families, options.sweep_factor));
         return 0;

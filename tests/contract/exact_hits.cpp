@@ -15,8 +15,7 @@ Point minus(const Point& a, const Point& b) {
     return {Fraction(a[0] - b[0]), Fraction(a[1] - b[1]), Fraction(a[2] - b[2])};
 }
 Fraction determinant(const Point& a, const Point& b, const Point& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 // Points inside the first triangle to move towards, as weights of its corners. None is special, so that the moved ray is
@@ -124,8 +123,7 @@ ExactAnswers ExactScene::answers(const Ray& ray) const {
     // Numbers near the ends of float64's range would over- or underflow in the slab test.
     const bool can_sift =
         !is_extreme(ray.origin) && !is_extreme(ray.direction) && !is_extreme(lower_) && !is_extreme(upper_);
-    const double slack =
-        1e-12 * max_component(glm::max(glm::abs(lower_ - ray.origin), glm::abs(upper_ - ray.origin)));
+    const double slack = 1e-12 * max_component(glm::max(glm::abs(lower_ - ray.origin), glm::abs(upper_ - ray.origin)));
     oracle::Scene sifted;
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {

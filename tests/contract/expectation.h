@@ -45,7 +45,14 @@ struct Expectation {
 struct ExpectationKind {
     Expected kind;
     const char* word;
-    enum class Takes { nothing, one_number, count, numbers, ids, one_id } takes;
+    enum class Takes {
+        nothing,
+        one_number,
+        count,
+        numbers,
+        ids,
+        one_id
+    } takes;
     bool needs_all;
     bool for_sweeps; // makes sense for every ray of a sweep
 };

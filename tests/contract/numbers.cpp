@@ -19,7 +19,8 @@ std::optional<double> number_of(const std::string& text) {
     errno = 0;
     const double value = std::strtod(digits.c_str(), &end);
     if (end != digits.c_str() + digits.size() || std::isinf(value)) return std::nullopt;
-    if (value == 0.0 && errno == ERANGE) return std::nullopt; // smaller than the smallest double, and not meant to be zero
+    if (value == 0.0 && errno == ERANGE)
+        return std::nullopt; // smaller than the smallest double, and not meant to be zero
     return sign * value;
 }
 
@@ -27,6 +28,10 @@ std::string text_of(double number) {
     if (std::isnan(number)) return "nan";
     if (std::isinf(number)) return number < 0 ? "-inf" : "inf";
     char text[40];
+    if (number == std::floor(number) && std::fabs(number) < 1e15) {
+        std::snprintf(text, sizeof text, "%.0f", number);
+        return text;
+    }
     for (int digits = 1; digits <= 17; ++digits) {
         std::snprintf(text, sizeof text, "%.*g", digits, number);
         if (std::strtod(text, nullptr) == number) break;

@@ -9,7 +9,7 @@ namespace raywise::contract {
 // Empty when the whole text is no such number, or one that no double comes near.
 std::optional<double> number_of(const std::string& text);
 
-// The shortest decimal that reads back as the same number.
+// The shortest decimal that reads back as the same number, without an exponent for whole ones that are not huge.
 std::string text_of(double number);
 
 // Whether float32 holds it without loss. NaN and infinity count as held.

@@ -55,10 +55,14 @@ void add_mesh(rw_scene* scene, const Mesh& mesh) {
     triangles.indices.data = mesh.triangles.empty() ? &none : mesh.triangles.data();
     const std::int32_t status = rw_scene_add_triangles(scene, &triangles, nullptr);
     switch (status) {
-    case RW_ERROR_NOT_FINITE: throw Refusal("not-finite", rw_last_error_message());
-    case RW_ERROR_COORDINATE_RANGE: throw Refusal("coordinate-range", rw_last_error_message());
-    case RW_ERROR_INDEX_OUT_OF_RANGE: throw Refusal("index-range", rw_last_error_message());
-    default: check(status, "rw_scene_add_triangles");
+        case RW_ERROR_NOT_FINITE:
+            throw Refusal("not-finite", rw_last_error_message());
+        case RW_ERROR_COORDINATE_RANGE:
+            throw Refusal("coordinate-range", rw_last_error_message());
+        case RW_ERROR_INDEX_OUT_OF_RANGE:
+            throw Refusal("index-range", rw_last_error_message());
+        default:
+            check(status, "rw_scene_add_triangles");
     }
 }
 

@@ -79,7 +79,8 @@ private:
         } catch (const Refusal& refusal) {
             const std::string text = refusal.what();
             if (refusal.kind != case_.refusal)
-                fail("mesh", "expected the mesh to be refused as " + case_.refusal + ", got " + refusal.kind + ": " + text);
+                fail("mesh",
+                     "expected the mesh to be refused as " + case_.refusal + ", got " + refusal.kind + ": " + text);
             else if (text.find(case_.mention) == std::string::npos)
                 fail("mesh", "expected an error that mentions \"" + case_.mention + "\", got: " + text);
         }
@@ -101,8 +102,7 @@ private:
             }
             if (closest.size() < group.rays.size()) continue; // what follows is about all of them
             for (const Expectation& expectation : group.lines->expectations) {
-                if (expectation.kind == Expected::batch && capabilities_.has_batch)
-                    check_batch(*scene, group, closest);
+                if (expectation.kind == Expected::batch && capabilities_.has_batch) check_batch(*scene, group, closest);
                 if (expectation.kind == Expected::repeatable)
                     check_repeatable(*scene, group, closest, static_cast<int>(expectation.numbers[0]));
             }
@@ -139,17 +139,19 @@ private:
             scene.closest_batch(rays, answers);
             if (answers.size() != rays.size())
                 return fail("batch", "a batch of " + std::to_string(rays.size()) + " rays has " +
-                            std::to_string(answers.size()) + " answers");
+                                         std::to_string(answers.size()) + " answers");
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (same_bits(answers[i], expected[i])) continue;
                 ++result_.failed_rays;
-                fail("batch", group, rays[i], std::string(how) + " " + text_of(answers[i]) + ", alone " + text_of(expected[i]));
+                fail("batch", group, rays[i],
+                     std::string(how) + " " + text_of(answers[i]) + ", alone " + text_of(expected[i]));
             }
         };
         const auto half = static_cast<std::ptrdiff_t>(single.size() / 2);
         compare(group.rays, single, "in a batch");
         compare({group.rays.rbegin(), group.rays.rend()}, {single.rbegin(), single.rend()}, "in a backward batch");
-        compare({group.rays.begin() + half, group.rays.end()}, {single.begin() + half, single.end()}, "in half a batch");
+        compare({group.rays.begin() + half, group.rays.end()}, {single.begin() + half, single.end()},
+                "in half a batch");
     }
 
     void check_repeatable(Scene& scene, const RayGroup& group, const std::vector<Answer>& first, int times) {
@@ -159,7 +161,8 @@ private:
                 const Answers again = ask(scene, group.rays[i], capabilities_);
                 if (same_bits(again.closest, first[i])) continue;
                 ++result_.failed_rays;
-                fail("again", group, group.rays[i], "asked again " + text_of(again.closest) + ", before " + text_of(first[i]));
+                fail("again", group, group.rays[i],
+                     "asked again " + text_of(again.closest) + ", before " + text_of(first[i]));
             }
         }
     }

@@ -12,7 +12,11 @@
 
 namespace raywise::contract {
 
-enum class Outcome { passed, failed, skipped };
+enum class Outcome {
+    passed,
+    failed,
+    skipped
+};
 
 struct CaseResult {
     std::string family;

@@ -25,7 +25,7 @@ struct Corners {
 class Maker {
 public:
     Maker(const RayLines& lines, const std::vector<Mesh>& meshes, std::uint64_t factor)
-        : lines_(lines), count_(lines.count * factor), random_(lines.seed) {
+        : lines_(lines), factor_(factor), random_(lines.seed) {
         Box box;
         for (const Mesh& mesh : meshes) {
             for (const auto& triangle : mesh.triangles) {
@@ -50,7 +50,9 @@ public:
     Vec3 center;
     double radius; // the longest side of the bounding box: everything lies closer to the center than that
 
-    std::uint64_t count() const { return count_; }
+    // 0: all there are.
+    std::uint64_t count() const { return lines_.count * factor_; }
+    std::uint64_t factor() const { return factor_; }
     double parameter(std::size_t i) const { return lines_.numbers[i]; }
     Vec3 point_parameter(std::size_t i) const { return {parameter(i), parameter(i + 1), parameter(i + 2)}; }
     const Box& box() const { return box_; }
@@ -82,18 +84,21 @@ public:
         return turn == 0 ? t : turn == 1 ? Corners{t.b, t.c, t.a} : Corners{t.c, t.a, t.b};
     }
     // A multiple of a small power of two, per axis, at least three radii long: from any point of the scene it leads outside.
+    // Never in an axis plane, where flat scenes would be seen edge-on.
     Vec3 step_outside() {
         const int exponent = std::ilogb(radius) - 3;
         Vec3 step;
-        for (int axis = 0; axis < 3; ++axis) step[axis] = std::ldexp(below(129) - 64, exponent);
         const int longest = below(3);
-        step[longest] = std::ldexp(below(2) == 0 ? 48 + below(17) : -48 - below(17), exponent);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int steps = axis == longest ? 48 + below(17) : 1 + below(64);
+            step[axis] = std::ldexp(below(2) == 0 ? steps : -steps, exponent);
+        }
         return step;
     }
 
 private:
     const RayLines& lines_;
-    std::uint64_t count_;
+    std::uint64_t factor_;
     std::mt19937_64 random_;
     std::vector<Corners> triangles_;
     Box box_;
@@ -103,9 +108,7 @@ using Rays = std::vector<Ray>;
 
 Ray from(const Vec3& origin, const Vec3& direction) { return {origin, 0.0, direction, infinity}; }
 
-bool lies_before(const Vec3& a, const Vec3& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
+bool lies_before(const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 struct ByPosition {
     bool operator()(const Vec3& a, const Vec3& b) const { return lies_before(a, b); }
     bool operator()(const std::pair<Vec3, Vec3>& a, const std::pair<Vec3, Vec3>& b) const {
@@ -199,7 +202,9 @@ void in_plane(Maker& make, Rays& rays) {
 void axis_grid(Maker& make, Rays& rays) {
     const int axis = static_cast<int>(make.parameter(0));
     const Vec3 size = make.box().size();
-    const auto side = make.count();
+    // A larger factor makes the lattice finer, so that the rays of the smaller one are among them.
+    const auto finer = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(make.factor())));
+    const std::uint64_t side = (make.count() / make.factor() - 1) * finer + 1;
     const auto place = [&](int other, std::uint64_t i) {
         if (i + 1 == side) return at(make.box().upper, other);
         const double part = side > 1 ? static_cast<double>(i) / static_cast<double>(side - 1) : 0.5;

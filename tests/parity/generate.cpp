@@ -1,11 +1,11 @@
-// Writes cases.json: meshes, rays and the library's answers. Every language that binds it has to agree bit for bit.
+// Writes cases.json: meshes, rays, what they skip, and the library's answers. Every language that binds it has to agree
+// bit for bit.
 //
 //   parity_generate FILE            writes it
 //   parity_generate --compare FILE  tells whether it is what would be written
-#include "oracle/rays.h"
-#include "oracle/scenes.h"
-#include "raywise/raywise.h"
+#include "cases.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -18,9 +18,9 @@
 
 namespace {
 
-using raywise::Ray;
 using raywise::Vec3;
 using raywise::oracle::Scene;
+using raywise::parity::Case;
 
 void check(std::int32_t status) {
     if (status != RW_OK) throw std::runtime_error(rw_last_error_message());
@@ -40,39 +40,6 @@ std::string bits(double x) {
     char text[24];
     std::snprintf(text, sizeof text, "\"0x%016llx\"", static_cast<unsigned long long>(value));
     return text;
-}
-
-std::vector<Scene> meshes() {
-    namespace o = raywise::oracle;
-    std::vector<Scene> all = {o::tetrahedron(),
-                              o::cube(),
-                              o::icosphere(1),
-                              o::soup(60, 61),
-                              o::duplicates_and_degenerates(),
-                              o::transformed(o::icosphere(0), 1.0 / 3.0, Vec3(1e6 + 0.1, -2e6, 3e6), false)};
-    const char* names[] = {"tetrahedron",        "cube", "icosphere", "soup", "duplicates and degenerates",
-                           "far away in float64"};
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].name = names[i];
-    return all;
-}
-
-std::vector<Ray> rays(const Scene& scene) {
-    std::vector<Ray> chosen = raywise::oracle::random_rays(scene, 10, 62);
-    int left = 26;
-    for (const Ray& ray : raywise::oracle::hard_rays(scene, 2, 63)) {
-        if (std::isfinite(ray.tmin) && left-- > 0) chosen.push_back(ray);
-    }
-    // Along each axis through the middle of the first triangle, missing, behind, and of no length at all.
-    const auto& t = scene.triangles.front();
-    const Vec3 middle = 0.5 * scene.vertices[t[0]] + 0.25 * scene.vertices[t[1]] + 0.25 * scene.vertices[t[2]];
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3 direction(0.0);
-        direction[axis] = -2.0;
-        chosen.push_back({middle - 3.0 * direction, 0.0, direction, INFINITY});
-        chosen.push_back({middle - 3.0 * direction, 0.0, direction, 0.5});
-    }
-    chosen.push_back({middle, 0.0, Vec3(0.0), INFINITY});
-    return chosen;
 }
 
 rw_scene* commit(const Scene& mesh) {
@@ -102,29 +69,60 @@ std::string mesh_text(const Scene& mesh) {
     return text + "]}";
 }
 
-std::string case_text(const Scene& mesh, const rw_scene* scene, const Ray& ray) {
-    const rw_ray asked = {{ray.origin.x, ray.origin.y, ray.origin.z},
-                          ray.tmin,
-                          {ray.direction.x, ray.direction.y, ray.direction.z},
-                          ray.tmax};
-    rw_hit hit;
-    check(rw_scene_intersect(scene, &asked, &hit));
-    std::string text = "{\"mesh\":\"" + mesh.name + "\",\"origin\":" + numbers(ray.origin) +
-                       ",\"direction\":" + numbers(ray.direction) + ",\"tmin\":" + number(ray.tmin) +
-                       ",\"tmax\":" + (std::isinf(ray.tmax) ? "\"inf\"" : number(ray.tmax)) + ",\"hit\":";
-    if (hit.primitive == RW_INVALID_ID) return text + "null}";
-    return text + "{\"t\":" + bits(hit.t) + ",\"u\":" + bits(hit.u) + ",\"v\":" + bits(hit.v) + ",\"normal\":[" +
+// All hits of a case. The other questions are asked as well, and have to agree.
+std::vector<rw_hit> answer(const rw_scene* scene, const Case& c) {
+    const raywise::Ray& r = c.ray;
+    const rw_ray ray = {
+        {r.origin.x, r.origin.y, r.origin.z}, r.tmin, {r.direction.x, r.direction.y, r.direction.z}, r.tmax};
+    const rw_ray_options options = {sizeof options, static_cast<std::uint32_t>(c.skip.size()), c.skip.data()};
+    std::vector<rw_hit> hits(1000);
+    std::uint64_t needed = 0;
+    check(rw_scene_intersect_all_with(scene, &ray, &options, hits.data(), hits.size(), &needed));
+    hits.resize(needed);
+
+    rw_hit closest;
+    std::int32_t occluded = 0;
+    check(rw_scene_intersect_with(scene, &ray, &options, &closest));
+    check(rw_scene_occluded_with(scene, &ray, &options, &occluded));
+    const bool agreed =
+        hits.empty() ? closest.primitive == RW_INVALID_ID : std::memcmp(&closest, hits.data(), sizeof closest) == 0;
+    if (!agreed || (occluded != 0) == hits.empty()) throw std::runtime_error("closest, any and all hits disagree");
+    return hits;
+}
+
+std::string skip_text(const std::vector<rw_primitive_id>& skip) {
+    std::string text = "[";
+    for (const rw_primitive_id& id : skip) {
+        text +=
+            (text.size() == 1 ? "[" : ",[") + std::to_string(id.geometry) + "," + std::to_string(id.primitive) + "]";
+    }
+    return text + "]";
+}
+
+std::string hit_text(const rw_hit& hit) {
+    return "{\"t\":" + bits(hit.t) + ",\"u\":" + bits(hit.u) + ",\"v\":" + bits(hit.v) + ",\"normal\":[" +
            bits(hit.normal[0]) + "," + bits(hit.normal[1]) + "," + bits(hit.normal[2]) +
-           "],\"geometry\":" + std::to_string(hit.geometry) + ",\"primitive\":" + std::to_string(hit.primitive) + "}}";
+           "],\"geometry\":" + std::to_string(hit.geometry) + ",\"primitive\":" + std::to_string(hit.primitive) + "}";
+}
+
+std::string case_text(const Scene& mesh, const Case& c, const std::vector<rw_hit>& hits) {
+    std::string text = "{\"mesh\":\"" + mesh.name + "\",\"origin\":" + numbers(c.ray.origin) +
+                       ",\"direction\":" + numbers(c.ray.direction) + ",\"tmin\":" + number(c.ray.tmin) +
+                       ",\"tmax\":" + (std::isinf(c.ray.tmax) ? "\"inf\"" : number(c.ray.tmax)) +
+                       ",\"skip\":" + skip_text(c.skip) + ",\"hits\":[";
+    for (std::size_t i = 0; i < hits.size(); ++i) text += (i == 0 ? "" : ",") + hit_text(hits[i]);
+    return text + "]}";
 }
 
 std::string generate() {
     std::string mesh_list;
     std::string case_list;
-    for (const Scene& mesh : meshes()) {
+    for (const Scene& mesh : raywise::parity::meshes()) {
         mesh_list += (mesh_list.empty() ? "" : ",\n") + mesh_text(mesh);
         rw_scene* scene = commit(mesh);
-        for (const Ray& ray : rays(mesh)) case_list += (case_list.empty() ? "" : ",\n") + case_text(mesh, scene, ray);
+        const auto all = [&](const Case& c) { return answer(scene, c); };
+        for (const Case& c : raywise::parity::cases(mesh, all))
+            case_list += (case_list.empty() ? "" : ",\n") + case_text(mesh, c, all(c));
         check(rw_scene_release(scene));
     }
     return "{\"meshes\":[\n" + mesh_list + "\n],\"cases\":[\n" + case_list + "\n]}\n";

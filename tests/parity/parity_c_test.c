@@ -22,6 +22,12 @@ typedef struct library {
     int32_t (*scene_set_structure)(rw_scene *, const char *);
     int32_t (*scene_commit)(rw_scene *, const rw_commit_options *);
     int32_t (*scene_intersect)(const rw_scene *, const rw_ray *, rw_hit *);
+    int32_t (*scene_occluded)(const rw_scene *, const rw_ray *, int32_t *);
+    int32_t (*scene_intersect_all)(const rw_scene *, const rw_ray *, rw_hit *, uint64_t, uint64_t *);
+    int32_t (*scene_intersect_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *);
+    int32_t (*scene_occluded_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, int32_t *);
+    int32_t (*scene_intersect_all_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *, uint64_t,
+                                        uint64_t *);
     const char *(*last_error_message)(void);
 } library;
 
@@ -52,6 +58,11 @@ static void load_library(const char *path) {
     load_name(handle, "rw_scene_set_structure", &lib.scene_set_structure);
     load_name(handle, "rw_scene_commit", &lib.scene_commit);
     load_name(handle, "rw_scene_intersect", &lib.scene_intersect);
+    load_name(handle, "rw_scene_occluded", &lib.scene_occluded);
+    load_name(handle, "rw_scene_intersect_all", &lib.scene_intersect_all);
+    load_name(handle, "rw_scene_intersect_with", &lib.scene_intersect_with);
+    load_name(handle, "rw_scene_occluded_with", &lib.scene_occluded_with);
+    load_name(handle, "rw_scene_intersect_all_with", &lib.scene_intersect_all_with);
     load_name(handle, "rw_last_error_message", &lib.last_error_message);
     if (lib.abi_version(&abi) != RW_OK || abi != RW_ABI_VERSION) exit(1);
 }
@@ -180,54 +191,125 @@ static void read_mesh(void) {
     }
 }
 
-static int check_case(int number) {
-    char name[64];
+#define MOST_HITS 100
+
+/* What a case holds, and what is asked for it: hits without those skipped. */
+typedef struct question {
+    char mesh[64];
     rw_ray ray;
-    rw_hit wanted, hit;
+    rw_primitive_id skip[MOST_HITS];
+    rw_ray_options options;
+    rw_hit hits[MOST_HITS];
+    uint64_t hit_count;
+} question;
+
+static void read_skip(question *q) {
+    memset(&q->options, 0, sizeof q->options);
+    q->options.struct_size = sizeof q->options;
+    take("[");
+    if (take_if("]")) return;
+    q->options.skip = q->skip;
+    do {
+        rw_primitive_id *id = &q->skip[q->options.skip_count++];
+        if (q->options.skip_count == MOST_HITS) fail("fewer triangles to skip");
+        id->instance = RW_INVALID_ID;
+        take("[");
+        id->geometry = (uint32_t)take_number();
+        take(",");
+        id->primitive = (uint32_t)take_number();
+        take("]");
+    } while (take_if(","));
+    take("]");
+}
+
+static void read_hit(rw_hit *hit) {
+    int i;
+    memset(hit, 0, sizeof *hit);
+    hit->instance = RW_INVALID_ID;
+    take("{\"t\":");
+    hit->t = take_bits();
+    take(",\"u\":");
+    hit->u = take_bits();
+    take(",\"v\":");
+    hit->v = take_bits();
+    take(",\"normal\":[");
+    for (i = 0; i < 3; ++i) {
+        if (i > 0) take(",");
+        hit->normal[i] = take_bits();
+    }
+    take("],\"geometry\":");
+    hit->geometry = (uint32_t)take_number();
+    take(",\"primitive\":");
+    hit->primitive = (uint32_t)take_number();
+    take("}");
+}
+
+static void read_question(question *q) {
+    take("{\"mesh\":");
+    take_name(q->mesh, sizeof q->mesh);
+    take(",\"origin\":");
+    take_vector(q->ray.origin);
+    take(",\"direction\":");
+    take_vector(q->ray.direction);
+    take(",\"tmin\":");
+    q->ray.tmin = take_number();
+    take(",\"tmax\":");
+    q->ray.tmax = take_if("\"inf\"") ? INFINITY : take_number();
+    take(",\"skip\":");
+    read_skip(q);
+    take(",\"hits\":[");
+    q->hit_count = 0;
+    if (!take_if("]")) {
+        do {
+            if (q->hit_count == MOST_HITS) fail("fewer hits");
+            read_hit(&q->hits[q->hit_count++]);
+        } while (take_if(","));
+        take("]");
+    }
+    take("}");
+}
+
+/* Whether closest, any and all hits are those stored. */
+static int is_answer(const question *q, const rw_hit *closest, int32_t occluded, const rw_hit *all, uint64_t count) {
+    rw_hit miss;
+    memset(&miss, 0, sizeof miss);
+    miss.t = INFINITY;
+    miss.instance = miss.geometry = miss.primitive = RW_INVALID_ID;
+    return memcmp(closest, q->hit_count > 0 ? &q->hits[0] : &miss, sizeof miss) == 0 &&
+           occluded == (q->hit_count > 0) && count == q->hit_count &&
+           memcmp(all, q->hits, (size_t)count * sizeof all[0]) == 0;
+}
+
+static int check_case(int number) {
+    static question q;
+    static rw_hit all[MOST_HITS];
+    rw_hit closest;
+    int32_t occluded = -1;
+    uint64_t count = 0;
     size_t m;
     uint32_t i;
     int wrong = 0;
-    memset(&wanted, 0, sizeof wanted);
-    wanted.t = INFINITY;
-    wanted.instance = wanted.geometry = wanted.primitive = RW_INVALID_ID;
-    take("{\"mesh\":");
-    take_name(name, sizeof name);
-    take(",\"origin\":");
-    take_vector(ray.origin);
-    take(",\"direction\":");
-    take_vector(ray.direction);
-    take(",\"tmin\":");
-    ray.tmin = take_number();
-    take(",\"tmax\":");
-    ray.tmax = take_if("\"inf\"") ? INFINITY : take_number();
-    take(",\"hit\":");
-    if (!take_if("null")) {
-        take("{\"t\":");
-        wanted.t = take_bits();
-        take(",\"u\":");
-        wanted.u = take_bits();
-        take(",\"v\":");
-        wanted.v = take_bits();
-        take(",\"normal\":[");
-        for (i = 0; i < 3; ++i) {
-            if (i > 0) take(",");
-            wanted.normal[i] = take_bits();
-        }
-        take("],\"geometry\":");
-        wanted.geometry = (uint32_t)take_number();
-        take(",\"primitive\":");
-        wanted.primitive = (uint32_t)take_number();
-        take("}");
-    }
-    take("}");
-    for (m = 0; m < mesh_count && strcmp(meshes[m].name, name) != 0; ++m) {
+    read_question(&q);
+    for (m = 0; m < mesh_count && strcmp(meshes[m].name, q.mesh) != 0; ++m) {
     }
     if (m == mesh_count) fail("a case of a known mesh");
     for (i = 0; i < structure_count; ++i) {
-        need(lib.scene_intersect(meshes[m].scenes[i], &ray, &hit));
-        if (memcmp(&hit, &wanted, sizeof hit) == 0) continue;
-        fprintf(stderr, "case %d on %s, structure %u: t %a instead of %a, primitive %u instead of %u\n", number, name,
-                (unsigned)i, hit.t, wanted.t, (unsigned)hit.primitive, (unsigned)wanted.primitive);
+        const rw_scene *scene = meshes[m].scenes[i];
+        int right;
+        need(lib.scene_intersect_with(scene, &q.ray, &q.options, &closest));
+        need(lib.scene_occluded_with(scene, &q.ray, &q.options, &occluded));
+        need(lib.scene_intersect_all_with(scene, &q.ray, &q.options, all, MOST_HITS, &count));
+        right = is_answer(&q, &closest, occluded, all, count);
+        if (q.options.skip_count == 0) {
+            need(lib.scene_intersect(scene, &q.ray, &closest));
+            need(lib.scene_occluded(scene, &q.ray, &occluded));
+            need(lib.scene_intersect_all(scene, &q.ray, all, MOST_HITS, &count));
+            right = right && is_answer(&q, &closest, occluded, all, count);
+        }
+        if (right) continue;
+        fprintf(stderr, "case %d on %s, structure %u: %u hits instead of %u, the closest at t %a, primitive %u\n",
+                number, q.mesh, (unsigned)i, (unsigned)count, (unsigned)q.hit_count, closest.t,
+                (unsigned)closest.primitive);
         wrong = 1;
     }
     return wrong;

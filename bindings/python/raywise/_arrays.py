@@ -11,6 +11,7 @@ from . import _declarations as c
 
 FloatArray = Union[npt.NDArray[np.float32], npt.NDArray[np.float64]]
 Array = npt.NDArray[Any]
+Shape = Tuple[int, ...]
 
 TYPES: Dict[str, int] = {
     "f4": c.RW_FLOAT32,

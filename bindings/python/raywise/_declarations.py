@@ -149,6 +149,22 @@ class rw_ray(ctypes.Structure):
     ]
 
 
+class rw_primitive_id(ctypes.Structure):
+    _fields_ = [
+        ("instance", ctypes.c_uint32),
+        ("geometry", ctypes.c_uint32),
+        ("primitive", ctypes.c_uint32),
+    ]
+
+
+class rw_ray_options(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("skip_count", ctypes.c_uint32),
+        ("skip", ctypes.POINTER(rw_primitive_id)),
+    ]
+
+
 class rw_hit(ctypes.Structure):
     _fields_ = [
         ("t", ctypes.c_double),
@@ -171,6 +187,9 @@ class rw_rays(ctypes.Structure):
         ("direction", rw_array),
         ("tmin", rw_array),
         ("tmax", rw_array),
+        ("skip_offsets", ctypes.c_void_p),
+        ("skip_geometry", rw_array),
+        ("skip_primitive", rw_array),
     ]
 
 
@@ -354,6 +373,35 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
             ctypes.c_void_p,
         ],
     ),
+    "rw_scene_intersect_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit),
+        ],
+    ),
+    "rw_scene_occluded_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.c_void_p,
+        ],
+    ),
+    "rw_scene_intersect_all_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit),
+            ctypes.c_uint64,
+            ctypes.c_void_p,
+        ],
+    ),
     "rw_scene_intersect_batch": (
         ctypes.c_int32,
         [
@@ -414,6 +462,35 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
         [
             ctypes.c_void_p,
             ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_hit),
+            ctypes.c_uint64,
+            ctypes.c_void_p,
+        ],
+    ),
+    "rw_view_intersect_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit),
+        ],
+    ),
+    "rw_view_occluded_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.c_void_p,
+        ],
+    ),
+    "rw_view_intersect_all_with": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
             ctypes.POINTER(rw_hit),
             ctypes.c_uint64,
             ctypes.c_void_p,
@@ -547,6 +624,24 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "tmax": 56,
         },
     ),
+    "rw_primitive_id": (
+        12,
+        4,
+        {
+            "instance": 0,
+            "geometry": 4,
+            "primitive": 8,
+        },
+    ),
+    "rw_ray_options": (
+        16,
+        8,
+        {
+            "struct_size": 0,
+            "skip_count": 4,
+            "skip": 8,
+        },
+    ),
     "rw_hit": (
         64,
         8,
@@ -562,7 +657,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_rays": (
-        144,
+        216,
         8,
         {
             "struct_size": 0,
@@ -572,6 +667,9 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "direction": 48,
             "tmin": 80,
             "tmax": 112,
+            "skip_offsets": 144,
+            "skip_geometry": 152,
+            "skip_primitive": 184,
         },
     ),
     "rw_hits": (

@@ -48,7 +48,7 @@ class CoordinateRange(RaywiseError, ValueError):
 
 
 class IndexOutOfRange(RaywiseError, IndexError, ValueError):
-    """A triangle names a vertex that is not there."""
+    """An index or id names a vertex, geometry or triangle that is not there."""
 
 
 class TooMany(RaywiseError, ValueError):

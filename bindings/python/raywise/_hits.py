@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _declarations as c
-from ._arrays import Array, FloatArray, output_array, overlap
-from ._rays import Shape
+from ._arrays import Array, FloatArray, Shape, output_array, overlap
 from ._words import sized
 
 IdArray = Union[npt.NDArray[np.uint32], npt.NDArray[np.uint64]]

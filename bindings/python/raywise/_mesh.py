@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _declarations as c
 from ._arrays import Array, FloatArray, as_array, as_floats, as_indices, expressible, input_array, require_rows
-from ._errors import IndexOutOfRange, check
+from ._errors import IndexOutOfRange, RaywiseError, check
 from ._handle import Handle, Reference
 from ._library import lib
 from ._text import PathLike, c_path
@@ -120,7 +120,7 @@ class Triangles:
     kept: List[object]
     signed: Optional[Array]  # the indices as the caller gave them, when they could be negative
 
-    def in_callers_terms(self, error: IndexOutOfRange) -> IndexOutOfRange:
+    def in_callers_terms(self, error: RaywiseError) -> RaywiseError:
         """The same error, in the caller's terms when the index was a negative one."""
         if self.signed is None or self.signed.size == 0 or self.signed.min() >= 0:
             return error

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import ctypes
-from contextlib import contextmanager
-from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _declarations as c
 from ._arrays import Array
-from ._errors import IndexOutOfRange
+from ._errors import RaywiseError, error_of
 from ._hits import EVERYTHING, Hits, Out
 from ._library import lib
 from ._mesh import Mesh, Triangles, triangles_of
 from ._profile import Profile
 from ._queries import answer_closest, answer_occluded
 from ._rays import as_rays
+from ._skip import SkipLike, is_about_skip
 from ._text import c_text
 from ._words import RAY_KINDS, Count, constant, sized, unsigned
 
@@ -37,6 +37,7 @@ def intersect_once(
     memory_limit: Count = 0,
     profile: Optional[Profile] = None,
     skip_invalid: bool = False,
+    skip: Optional[SkipLike] = None,
     want: Iterable[str] = EVERYTHING,
     out: Optional[Out] = None,
     dtype: Optional[npt.DTypeLike] = None,
@@ -47,8 +48,8 @@ def intersect_once(
     The structure is chosen for exactly these rays.
 
     meshes: a Mesh, a pair (vertices, triangles), or a list of those; hits name mesh i as geometry i. Arrays,
-    skip_invalid: as for Scene.add_triangles. kind, structure, memory_limit, profile: as for Scene.
-    The rest, the result and its ownership: as for Scene.intersect.
+    skip_invalid (of triangles): as for Scene.add_triangles. kind, structure, memory_limit, profile: as for Scene.
+    The rest, `skip` among it, the result and its ownership: as for Scene.intersect.
 
     Raises what Scene, Scene.add_triangles, Scene.commit and Scene.intersect raise. Threads: any; other Python threads
     run meanwhile.
@@ -56,16 +57,15 @@ def intersect_once(
     C: rw_once_intersect.
     """
     call = Once(meshes, skip_invalid, kind, structure, memory_limit, profile)
-    rays = as_rays(origins, directions, tmin, tmax)
-    with call.in_callers_terms():
-        hits = answer_closest(
-            rays,
-            lambda c_rays, c_hits, query: call.run(lib.rw_once_intersect, c_rays, c_hits, query),
-            want,
-            out,
-            dtype,
-            threads,
-        )
+    rays = as_rays(origins, directions, tmin, tmax, skip)
+    hits = answer_closest(
+        rays,
+        lambda c_rays, c_hits, query: call.run(lib.rw_once_intersect, c_rays, c_hits, query),
+        want,
+        out,
+        dtype,
+        threads,
+    )
     if out is not None or rays.shape != ():
         return hits
     return Hits({name: array[()] for name, array in hits.arrays.items()}, hits.invalid_rays)
@@ -83,6 +83,7 @@ def occluded_once(
     memory_limit: Count = 0,
     profile: Optional[Profile] = None,
     skip_invalid: bool = False,
+    skip: Optional[SkipLike] = None,
     out: Optional[Array] = None,
     threads: Count = 0,
 ) -> npt.NDArray[np.bool_]:
@@ -93,14 +94,13 @@ def occluded_once(
     C: rw_once_occluded.
     """
     call = Once(meshes, skip_invalid, kind, structure, memory_limit, profile)
-    rays = as_rays(origins, directions, tmin, tmax)
-    with call.in_callers_terms():
-        flags = answer_occluded(
-            rays,
-            lambda c_rays, c_output, query: call.run(lib.rw_once_occluded, c_rays, c_output, query),
-            out,
-            threads,
-        )
+    rays = as_rays(origins, directions, tmin, tmax, skip)
+    flags = answer_occluded(
+        rays,
+        lambda c_rays, c_output, query: call.run(lib.rw_once_occluded, c_rays, c_output, query),
+        out,
+        threads,
+    )
     return flags[()] if out is None else flags
 
 
@@ -128,17 +128,16 @@ class Once:
     def run(self, function: Any, rays: c.rw_rays, output: Any, query: c.rw_query_options) -> int:
         self.options.query = ctypes.pointer(query)
         status: int = function(self.array, len(self.meshes), rays, output, self.options)
+        if status == c.RW_ERROR_INDEX_OUT_OF_RANGE:
+            raise self.in_callers_terms(error_of(status))
         return status
 
-    @contextmanager
-    def in_callers_terms(self) -> Iterator[None]:
-        """Calls an index that is out of range negative when the caller's is."""
-        try:
-            yield
-        except IndexOutOfRange as error:
+    def in_callers_terms(self, error: RaywiseError) -> RaywiseError:
+        """Calls an index of a mesh that is out of range negative when the caller's is."""
+        if not is_about_skip(error):
             for mesh in self.meshes:
                 error = mesh.in_callers_terms(error)
-            raise error from None
+        return error
 
 
 def list_of(meshes: Meshes) -> List[OneMesh]:

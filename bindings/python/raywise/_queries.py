@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _declarations as c
 from ._arrays import Array, output_array
-from ._errors import check
+from ._errors import Capacity, check
 from ._explanation import Candidate, Explanation, facts
 from ._handle import Handle, Reference
 from ._hits import (
@@ -31,6 +31,7 @@ from ._hits import (
 )
 from ._library import lib
 from ._rays import Rays, as_rays, describe
+from ._skip import SkipLike
 from ._text import library_json, library_text
 from ._words import Count, sized, unsigned
 
@@ -58,7 +59,7 @@ class Batch:
     invalid_rays: "ctypes.c_uint64"
 
     def structs(self) -> c.rw_rays:
-        return describe(self.rows, self.rays.count)
+        return describe(self.rays, self.rows)
 
 
 def batch_of(rays: Rays, threads: Count) -> Batch:
@@ -82,8 +83,9 @@ def answer_closest(
     if out is None:
         outputs = new_outputs(wanted(want), rays.shape, float_type(dtype, rays.dtype))
     else:
-        outputs = caller_outputs(out, rays.shape, rays.parts)
-    check(call(batch.structs(), outputs.describe(), batch.options))
+        outputs = caller_outputs(out, rays.shape, rays.inputs)
+    with rays.in_callers_terms():
+        check(call(batch.structs(), outputs.describe(), batch.options))
     return Hits(outputs.arrays, batch.invalid_rays.value)
 
 
@@ -99,9 +101,10 @@ def answer_occluded(
         flags = np.empty(rays.shape, np.bool_)
     else:
         require_output(out, "out", "flag", rays.shape)
-        require_apart({"out": out}, rays.parts)
+        require_apart({"out": out}, rays.inputs)
         flags = out
-    check(call(batch.structs(), output_array(rows_of(flags, rays.shape, "out")), batch.options))
+    with rays.in_callers_terms():
+        check(call(batch.structs(), output_array(rows_of(flags, rays.shape, "out")), batch.options))
     return flags
 
 
@@ -127,6 +130,15 @@ class Queries(Handle):
         """The reference of something that can be asked."""
         return self._use()
 
+    def _ask_one(self, name: str, reference: Reference, rays: Rays, *results: Any) -> None:
+        """Asks about the one ray of shape (), by the function with options when it skips something."""
+        with rays.in_callers_terms():
+            if rays.skip is None:
+                check(self._function(name)(reference.address, rays.single(), *results))
+            else:
+                options = rays.skip.options()
+                check(self._function(f"{name}_with")(reference.address, rays.single(), options, *results))
+
     # --- questions -------------------------------------------------------------------------------------------------
 
     def intersect(
@@ -136,6 +148,7 @@ class Queries(Handle):
         tmin: Optional[npt.ArrayLike] = None,
         tmax: Optional[npt.ArrayLike] = None,
         *,
+        skip: Optional[SkipLike] = None,
         want: Iterable[str] = EVERYTHING,
         out: Optional[Out] = None,
         dtype: Optional[npt.DTypeLike] = None,
@@ -145,6 +158,17 @@ class Queries(Handle):
 
         origins, directions: shape (3,) or (..., 3). tmin, tmax: shape () or the rays' leading shape; None: 0 and
         infinity. The leading shapes broadcast against each other, so one origin of shape (3,) serves a whole batch.
+        skip: triangles that single rays pass through without a hit: the one a ray starts on, or those it has met
+        before. One of
+          - the Hits of an earlier query: each ray skips what that one hit;
+          - ids of triangles, whole numbers in an array or list that broadcasts to the rays' leading shape: one for
+            each ray; with one axis more than the rays, all along the last axis: (n, k) for n rays, (k,) for one;
+          - a list of n lists, not equally long, for rays of shape (n,); or AllHits of as many rays;
+          - a tuple (geometry, primitive) of such ids; alone they are of geometry 0;
+          - a tuple (offsets, geometry, primitive): ray i, in C order, skips the entries offsets[i] up to
+            offsets[i + 1] of the other two, of shape (m,); offsets has one element more than there are rays.
+        -1, or all bits set as in the ids of a miss, stands for nothing. uint32, int32, uint64 and int64 are read in
+        place wherever strides can say their order.
         want: which answers; some of "t", "uv", "normal", "geometry", "primitive", "instance".
         out: a dict of the caller's arrays to fill, or the Hits of an earlier call, instead of `want`: float32 or
         float64 for t, uv and normal, uint32 or uint64 for the ids, in the shapes of Hits, any strides; they may not
@@ -153,12 +177,14 @@ class Queries(Handle):
         threads: at most so many; 0: as many as the process may use.
 
         Returns Hits in the rays' leading shape, on arrays of its own (or on `out`); NumPy scalars for a single ray.
-        Raises ValueError or TypeError naming the argument, NotCommitted, ClosedError. Threads: any.
+        Raises ValueError or TypeError naming the argument, IndexOutOfRange naming the entry of `skip`, NotCommitted,
+        ClosedError, MemoryError. Threads: any.
 
-        C: rw_scene_intersect and rw_scene_intersect_batch; for a view rw_view_intersect and rw_view_intersect_batch.
+        C: rw_scene_intersect, rw_scene_intersect_with (for a ray with skip) and rw_scene_intersect_batch; for a view
+        rw_view_intersect, rw_view_intersect_with and rw_view_intersect_batch.
         """
         reference = self._committed()
-        rays = as_rays(origins, directions, tmin, tmax)
+        rays = as_rays(origins, directions, tmin, tmax, skip)
         unsigned(threads, "threads", 32)
         if rays.shape == () and out is None:
             return self._intersect_one(reference, rays, wanted(want), float_type(dtype, rays.dtype))
@@ -176,7 +202,7 @@ class Queries(Handle):
         self, reference: Reference, rays: Rays, names: List[str], dtype: "np.dtype[np.floating]"
     ) -> Hits:
         hit = c.rw_hit()
-        check(self._function("intersect")(reference.address, rays.single(), hit))
+        self._ask_one("intersect", reference, rays, hit)
         return Hits({name: values[0] for name, values in columns(hit, 1, names, dtype).items()}, count_nan(rays))
 
     def occluded(
@@ -186,25 +212,27 @@ class Queries(Handle):
         tmin: Optional[npt.ArrayLike] = None,
         tmax: Optional[npt.ArrayLike] = None,
         *,
+        skip: Optional[SkipLike] = None,
         out: Optional[Array] = None,
         threads: Count = 0,
     ) -> npt.NDArray[np.bool_]:
         """Whether each ray hits anything.
 
-        origins, directions, tmin, tmax, threads: as for intersect.
+        origins, directions, tmin, tmax, skip, threads: as for intersect.
         out: the caller's array to fill: bool, uint8, uint32 or uint64, in the rays' leading shape, any strides.
 
         Returns a bool array in the rays' leading shape (or `out`); a NumPy bool for a single ray.
-        Raises ValueError or TypeError naming the argument, NotCommitted, ClosedError. Threads: any.
+        Raises as intersect does. Threads: any.
 
-        C: rw_scene_occluded and rw_scene_occluded_batch; for a view rw_view_occluded and rw_view_occluded_batch.
+        C: rw_scene_occluded, rw_scene_occluded_with (for a ray with skip) and rw_scene_occluded_batch; for a view
+        rw_view_occluded, rw_view_occluded_with and rw_view_occluded_batch.
         """
         reference = self._committed()
-        rays = as_rays(origins, directions, tmin, tmax)
+        rays = as_rays(origins, directions, tmin, tmax, skip)
         unsigned(threads, "threads", 32)
         if rays.shape == () and out is None:
             answer = ctypes.c_int32()
-            check(self._function("occluded")(reference.address, rays.single(), ctypes.byref(answer)))
+            self._ask_one("occluded", reference, rays, ctypes.byref(answer))
             return np.bool_(answer.value)  # type: ignore[return-value]
         function = self._function("occluded_batch")
         return answer_occluded(
@@ -221,22 +249,26 @@ class Queries(Handle):
         tmin: Optional[npt.ArrayLike] = None,
         tmax: Optional[npt.ArrayLike] = None,
         *,
+        skip: Optional[SkipLike] = None,
         want: Iterable[str] = EVERYTHING,
         dtype: Optional[npt.DTypeLike] = None,
         threads: Count = 0,
     ) -> AllHits:
         """Every hit of each ray, each ray's sorted by t, then by (instance, geometry, primitive).
 
-        origins, directions, tmin, tmax, want, dtype, threads: as for intersect.
+        A surface that is crossed at an edge or a corner counts once: the first hit is the one that intersect finds, and
+        their number is even for a ray that starts outside a closed mesh.
+
+        origins, directions, tmin, tmax, skip, want, dtype, threads: as for intersect.
 
         Returns AllHits on arrays of its own; for a single ray offsets is [0, number of hits].
-        Raises ValueError or TypeError naming the argument, NotCommitted, ClosedError, MemoryError. Threads: any.
+        Raises as intersect does. Threads: any.
 
-        C: rw_scene_intersect_all and rw_scene_intersect_all_batch; for a view rw_view_intersect_all and
-        rw_view_intersect_all_batch.
+        C: rw_scene_intersect_all, rw_scene_intersect_all_with (for a ray with skip) and rw_scene_intersect_all_batch;
+        for a view rw_view_intersect_all, rw_view_intersect_all_with and rw_view_intersect_all_batch.
         """
         reference = self._committed()
-        rays = as_rays(origins, directions, tmin, tmax)
+        rays = as_rays(origins, directions, tmin, tmax, skip)
         names, float_dtype = wanted(want), float_type(dtype, rays.dtype)
         unsigned(threads, "threads", 32)
         if rays.shape == ():
@@ -260,22 +292,22 @@ class Queries(Handle):
             if status != c.RW_ERROR_CAPACITY:
                 break
             capacity = needed.value
-        check(status)
+        with rays.in_callers_terms():
+            check(status)
         return AllHits(trimmed(outputs, needed.value), batch.invalid_rays.value, offsets.view(np.int64))
 
     def _intersect_all_of_one(
         self, reference: Reference, rays: Rays, names: List[str], dtype: "np.dtype[np.floating]"
     ) -> AllHits:
-        ray = rays.single()
         needed = ctypes.c_uint64()
         capacity = 16
         while True:
             hits = (c.rw_hit * capacity)()
-            status = self._function("intersect_all")(reference.address, ray, hits, capacity, ctypes.byref(needed))
-            if status != c.RW_ERROR_CAPACITY:
+            try:
+                self._ask_one("intersect_all", reference, rays, hits, capacity, ctypes.byref(needed))
                 break
-            capacity = needed.value
-        check(status)
+            except Capacity:
+                capacity = needed.value
         found = columns(hits, needed.value, names, dtype)
         return AllHits(found, count_nan(rays), np.array([0, needed.value], np.int64))
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, Iterator, List, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _declarations as c
-from ._arrays import Array, as_floats, expressible, input_array
+from ._arrays import Array, Shape, as_floats, expressible, input_array
+from ._errors import IndexOutOfRange
+from ._skip import Skip, SkipLike, as_skip
 from ._words import sized
-
-Shape = Tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -23,10 +24,24 @@ class Rays:
     shape: Shape
     parts: Dict[str, Array]  # origins, directions and, where given, tmin and tmax; not yet broadcast
     dtype: "np.dtype[np.floating]"  # of the answers: float32 when origins and directions are
+    skip: Optional[Skip]
 
     @property
     def count(self) -> int:
         return math.prod(self.shape)
+
+    @property
+    def inputs(self) -> Dict[str, Array]:
+        """All that C reads, by the names for messages."""
+        return {**self.parts, **self.skip.arrays()} if self.skip else self.parts
+
+    @contextmanager
+    def in_callers_terms(self) -> Iterator[None]:
+        """Names an entry of a skip list that is out of range as the caller would."""
+        try:
+            yield
+        except IndexOutOfRange as error:
+            raise (self.skip.in_callers_terms(error) if self.skip else error) from None
 
     def rows(self) -> Dict[str, Array]:
         """The parts broadcast to (count, 3) and (count,). A copy is made only where strides cannot say it."""
@@ -52,6 +67,7 @@ def as_rays(
     directions: npt.ArrayLike,
     tmin: Optional[npt.ArrayLike] = None,
     tmax: Optional[npt.ArrayLike] = None,
+    skip: Optional[SkipLike] = None,
 ) -> Rays:
     """Checks types and shapes. ValueError names the arguments and shapes that do not fit."""
     parts = {"origins": as_floats(origins, "origins"), "directions": as_floats(directions, "directions")}
@@ -66,7 +82,7 @@ def as_rays(
     except ValueError:
         shapes = " and ".join(f"{name} of shape {part.shape}" for name, part in parts.items())
         raise ValueError(f"these do not fit together: {shapes}") from None
-    return Rays(shape, parts, np.result_type(parts["origins"], parts["directions"]))
+    return Rays(shape, parts, np.result_type(parts["origins"], parts["directions"]), as_skip(skip, shape))
 
 
 def tail_of(name: str) -> Shape:
@@ -77,17 +93,19 @@ def lead_of(name: str, part: Array) -> Shape:
     return part.shape[:-1] if tail_of(name) else part.shape
 
 
-def describe(rows: Dict[str, Array], count: int) -> c.rw_rays:
-    """rw_rays over rows, which the caller keeps for as long as C reads them."""
-    rays = sized(c.rw_rays)
-    rays.count = count
-    rays.origin = input_array(rows["origins"])
-    rays.direction = input_array(rows["directions"])
+def describe(rays: Rays, rows: Dict[str, Array]) -> c.rw_rays:
+    """rw_rays over rows and skip lists, which the caller keeps for as long as C reads them."""
+    struct = sized(c.rw_rays)
+    struct.count = rays.count
+    struct.origin = input_array(rows["origins"])
+    struct.direction = input_array(rows["directions"])
     if "tmin" in rows:
-        rays.tmin = input_array(rows["tmin"])
+        struct.tmin = input_array(rows["tmin"])
     if "tmax" in rows:
-        rays.tmax = input_array(rows["tmax"])
-    return rays
+        struct.tmax = input_array(rows["tmax"])
+    if rays.skip:
+        rays.skip.describe(struct)
+    return struct
 
 
 def sample_of(sample: "Tuple[npt.ArrayLike, ...]") -> Tuple[c.rw_rays, List[Array]]:
@@ -96,4 +114,4 @@ def sample_of(sample: "Tuple[npt.ArrayLike, ...]") -> Tuple[c.rw_rays, List[Arra
         raise TypeError("sample has to be a tuple (origins, directions), (..., tmin) or (..., tmin, tmax)")
     rays = as_rays(*sample)
     rows = rays.rows()
-    return describe(rows, rays.count), list(rows.values())
+    return describe(rays, rows), list(rows.values())

@@ -436,6 +436,100 @@ fn bindgen_test_layout_rw_ray() {
         "Offset of field: rw_ray::tmax",
     );
 }
+/// A triangle by its ids: the last three of a rw_hit, in the same order.
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct rw_primitive_id {
+    /// RW_INVALID_ID while the scene has no instances
+    pub instance: u32,
+    /// below the number of meshes
+    pub geometry: u32,
+    /// below the mesh's triangle_count; RW_INVALID_ID: the entry stands for nothing
+    pub primitive: u32,
+}
+#[test]
+fn bindgen_test_layout_rw_primitive_id() {
+    const UNINIT: ::std::mem::MaybeUninit<rw_primitive_id> = ::std::mem::MaybeUninit::uninit();
+    let ptr = UNINIT.as_ptr();
+    assert_eq!(
+        ::std::mem::size_of::<rw_primitive_id>(),
+        12usize,
+        "Size of rw_primitive_id",
+    );
+    assert_eq!(
+        ::std::mem::align_of::<rw_primitive_id>(),
+        4usize,
+        "Alignment of rw_primitive_id",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).instance) as usize - ptr as usize },
+        0usize,
+        "Offset of field: rw_primitive_id::instance",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).geometry) as usize - ptr as usize },
+        4usize,
+        "Offset of field: rw_primitive_id::geometry",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).primitive) as usize - ptr as usize },
+        8usize,
+        "Offset of field: rw_primitive_id::primitive",
+    );
+}
+/// What else there is to say of one ray.
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct rw_ray_options {
+    pub struct_size: u32,
+    pub skip_count: u32,
+    /**
+```text
+skip_count triangles the ray passes through without a hit, in any order, repeats allowed;
+NULL when skip_count is 0
+```
+*/
+    pub skip: *const rw_primitive_id,
+}
+#[test]
+fn bindgen_test_layout_rw_ray_options() {
+    const UNINIT: ::std::mem::MaybeUninit<rw_ray_options> = ::std::mem::MaybeUninit::uninit();
+    let ptr = UNINIT.as_ptr();
+    assert_eq!(
+        ::std::mem::size_of::<rw_ray_options>(),
+        16usize,
+        "Size of rw_ray_options",
+    );
+    assert_eq!(
+        ::std::mem::align_of::<rw_ray_options>(),
+        8usize,
+        "Alignment of rw_ray_options",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).struct_size) as usize - ptr as usize },
+        0usize,
+        "Offset of field: rw_ray_options::struct_size",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).skip_count) as usize - ptr as usize },
+        4usize,
+        "Offset of field: rw_ray_options::skip_count",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).skip) as usize - ptr as usize },
+        8usize,
+        "Offset of field: rw_ray_options::skip",
+    );
+}
+impl Default for rw_ray_options {
+    fn default() -> Self {
+        let mut s = ::std::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::std::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
 /**
 ```text
 One answer. The point hit is origin + t * direction = (1 - u - v) * v0 + u * v1 + v * v2.
@@ -522,12 +616,23 @@ pub struct rw_rays {
     pub tmin: rw_array,
     /// 1 component, float32 or float64; data NULL: INFINITY
     pub tmax: rw_array,
+    /**
+```text
+count + 1 numbers that never fall: ray i has the entries skip_offsets[i] up to, but without,
+skip_offsets[i + 1]; NULL: entry i alone is for ray i
+```
+*/
+    pub skip_offsets: *const u64,
+    /// 1 component, uint32 or uint64; data NULL: geometry 0 for all
+    pub skip_geometry: rw_array,
+    /// 1 component, uint32 or uint64; data NULL: nothing is skipped
+    pub skip_primitive: rw_array,
 }
 #[test]
 fn bindgen_test_layout_rw_rays() {
     const UNINIT: ::std::mem::MaybeUninit<rw_rays> = ::std::mem::MaybeUninit::uninit();
     let ptr = UNINIT.as_ptr();
-    assert_eq!(::std::mem::size_of::<rw_rays>(), 144usize, "Size of rw_rays");
+    assert_eq!(::std::mem::size_of::<rw_rays>(), 216usize, "Size of rw_rays");
     assert_eq!(::std::mem::align_of::<rw_rays>(), 8usize, "Alignment of rw_rays");
     assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).struct_size) as usize - ptr as usize },
@@ -563,6 +668,21 @@ fn bindgen_test_layout_rw_rays() {
         unsafe { ::std::ptr::addr_of!((*ptr).tmax) as usize - ptr as usize },
         112usize,
         "Offset of field: rw_rays::tmax",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).skip_offsets) as usize - ptr as usize },
+        144usize,
+        "Offset of field: rw_rays::skip_offsets",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).skip_geometry) as usize - ptr as usize },
+        152usize,
+        "Offset of field: rw_rays::skip_geometry",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).skip_primitive) as usize - ptr as usize },
+        184usize,
+        "Offset of field: rw_rays::skip_primitive",
     );
 }
 impl Default for rw_rays {
@@ -736,7 +856,7 @@ pub struct rw_expected_rays {
     /**
 ```text
 some of the caller's rays, for RW_EFFORT_PROBE and RW_EFFORT_MEASURE and RW_RULE_HAPALA;
-copied, at most the first 1,000; NULL: rays of that kind are made up
+copied, at most the first 1,000, without their skip lists; NULL: rays of that kind are made up
 ```
 */
     pub sample: *const rw_rays,
@@ -1677,7 +1797,8 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any.
     ) -> i32;
     /**
 ```text
-Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive).
+Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive); a surface crossed at an edge or a
+corner counts once (see "All hits" at the top).
 hits: room for capacity answers, or NULL with capacity 0 to ask for the number only.
 needed: receives the number of hits there are; not NULL.
 Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (the closest ones are then written);
@@ -1694,12 +1815,51 @@ Threads: any. Since: 0.1.
     ) -> i32;
     /**
 ```text
-Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
+Does: as rw_scene_intersect, for a ray that skips triangles.
+options: struct_size set; NULL: the defaults.
+Returns: also RW_ERROR_INDEX_OUT_OF_RANGE for an id that is not there, and RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.2.
+```
+*/
+    pub fn rw_scene_intersect_with(
+        scene: *const rw_scene,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
+        hit: *mut rw_hit,
+    ) -> i32;
+    /**
+```text
+Does: as rw_scene_occluded, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with.
+Threads: any. Since: 0.2.
+```
+*/
+    pub fn rw_scene_occluded_with(
+        scene: *const rw_scene,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
+        occluded: *mut i32,
+    ) -> i32;
+    /**
+```text
+Does: as rw_scene_intersect_all, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with, and
+RW_ERROR_CAPACITY. Threads: any. Since: 0.2.
+```
+*/
+    pub fn rw_scene_intersect_all_with(
+        scene: *const rw_scene,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
+        hits: *mut rw_hit,
+        capacity: u64,
+        needed: *mut u64,
+    ) -> i32;
+    /**
+```text
+Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_with for each.
 rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
 the rays, which is not checked.
 options: struct_size set; NULL: the defaults.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
-RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
 */
     pub fn rw_scene_intersect_batch(
@@ -1810,6 +1970,29 @@ RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
     pub fn rw_view_intersect_all(
         view: *const rw_view,
         ray: *const rw_ray,
+        hits: *mut rw_hit,
+        capacity: u64,
+        needed: *mut u64,
+    ) -> i32;
+    /// Does: as rw_scene_intersect_with. Threads: any. Since: 0.2.
+    pub fn rw_view_intersect_with(
+        view: *const rw_view,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
+        hit: *mut rw_hit,
+    ) -> i32;
+    /// Does: as rw_scene_occluded_with. Threads: any. Since: 0.2.
+    pub fn rw_view_occluded_with(
+        view: *const rw_view,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
+        occluded: *mut i32,
+    ) -> i32;
+    /// Does: as rw_scene_intersect_all_with. Threads: any. Since: 0.2.
+    pub fn rw_view_intersect_all_with(
+        view: *const rw_view,
+        ray: *const rw_ray,
+        options: *const rw_ray_options,
         hits: *mut rw_hit,
         capacity: u64,
         needed: *mut u64,

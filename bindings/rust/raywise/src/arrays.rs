@@ -1,4 +1,5 @@
-//! Arrays that the library reads where they lie: vertices, triangle corners, ray origins and directions, bounds of rays.
+//! Arrays that the library reads where they lie: vertices, triangle corners, ray origins and directions, bounds of rays,
+//! ids.
 
 use std::marker::PhantomData;
 use std::mem::size_of;
@@ -35,7 +36,7 @@ impl<'a> Borrowed<'a> {
     }
 }
 
-// What the three kinds of borrowed numbers share: where they come from, and how many there are.
+// What the four kinds of borrowed numbers share: where they come from, and how many there are.
 macro_rules! borrowed_rows {
     ($to:ident, $bound:ident, $row:ty) => {
         impl $to<'_> {
@@ -136,13 +137,19 @@ pub struct Scalars<'a>(Borrowed<'a>);
 
 borrowed_rows!(Scalars, Float, T);
 
+/// One id per entry of a skip list: `&[u32]` or `&[u64]`. Nothing is copied.
+#[derive(Clone, Copy, Debug)]
+pub struct Ids<'a>(Borrowed<'a>);
+
+borrowed_rows!(Ids, Index, T);
+
 /// One value that stands for every ray. The caller keeps `value` where it is while the result is in use.
-pub(crate) fn repeated<const N: usize>(value: &[f64; N]) -> sys::rw_array {
+pub(crate) fn repeated<T: Element, const N: usize>(value: &[T; N]) -> sys::rw_array {
     sys::rw_array {
         data: value.as_ptr().cast(),
         stride: sys::RW_REPEAT,
         component_stride: 0,
-        type_: sys::RW_FLOAT64,
+        type_: T::TYPE,
         reserved: 0,
     }
 }

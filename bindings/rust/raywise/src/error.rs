@@ -29,6 +29,30 @@ pub enum Error {
         found: usize,
     },
 
+    /// Offsets that belong to consecutive lists have to be in order.
+    #[error("{what}[{index}] is {value}, below the {before} before it")]
+    Falling {
+        /// Which argument.
+        what: &'static str,
+        /// The first offset that is too low.
+        index: usize,
+        /// What it is.
+        value: u64,
+        /// What the offset before it is.
+        before: u64,
+    },
+
+    /// More elements than the library can be told of.
+    #[error("{what}: {found} elements, and {limit} are the most there can be")]
+    TooMany {
+        /// Which argument.
+        what: &'static str,
+        /// How many elements it has.
+        found: usize,
+        /// How many it can have.
+        limit: usize,
+    },
+
     /// The room given for the hits is too small; none was written.
     #[error("there are {needed} hits and room for {capacity}")]
     Capacity {
@@ -80,6 +104,10 @@ mod tests {
         let error = Error::Length { what: "directions", expected: 3, found: 2 };
         assert_eq!(error.to_string(), "directions: 2 elements, where 3 are needed");
         assert_eq!(error.status(), None);
+        let error = Error::Falling { what: "skip offsets", index: 3, value: 5, before: 9 };
+        assert_eq!(error.to_string(), "skip offsets[3] is 5, below the 9 before it");
+        let error = Error::TooMany { what: "skip", found: 9, limit: 8 };
+        assert_eq!(error.to_string(), "skip: 9 elements, and 8 are the most there can be");
 
         let error = Error::Library { status: Status::CANCELLED, message: "stopped".into() };
         assert_eq!(error.to_string(), "stopped (RW_ERROR_CANCELLED)");

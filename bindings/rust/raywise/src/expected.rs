@@ -70,7 +70,7 @@ impl<'a> ExpectedRays<'a> {
     }
 
     /// Some of the rays, for [`Effort::Probe`], [`Effort::Measure`] and [`Rule::Hapala`]. They are copied, at most the
-    /// first 1,000. Without them rays of the kind are made up.
+    /// first 1,000 and without their skip lists. Without a sample rays of the kind are made up.
     #[must_use]
     pub fn sample(mut self, rays: &'a Rays<'a>) -> Self {
         self.sample = Some(rays);

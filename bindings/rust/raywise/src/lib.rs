@@ -33,6 +33,8 @@
 //!
 //! * [`SceneBuilder`] is filled and committed; [`Scene`] is what comes out; [`View`] is a scene seen from one place.
 //! * [`RayQueries`] has the questions: closest hit, any hit, all hits, for one ray and for many.
+//! * [`RayOptions::skip`] and [`Rays::with_skip`] name triangles that single rays pass through, e.g. those they start
+//!   on: there are no epsilons.
 //! * [`OneShot`] answers one batch and keeps nothing.
 //! * [`Profile`] holds the constants that decide; [`RayQueries::candidates`] and [`RayQueries::explain`] tell how.
 //!
@@ -60,11 +62,13 @@ mod mesh;
 mod once;
 mod options;
 mod parallel;
+mod primitive_id;
 mod profile;
 mod questions;
 mod ray;
 mod rays;
 mod scene;
+mod skip;
 mod statistics;
 mod status;
 mod structures;
@@ -72,7 +76,7 @@ mod text;
 mod triangles;
 mod view;
 
-pub use arrays::{Indices, Scalars, Vectors};
+pub use arrays::{Ids, Indices, Scalars, Vectors};
 pub use builder::{CommitError, SceneBuilder};
 pub use candidate::Candidate;
 pub use element::{Flag, Float, Index};
@@ -85,11 +89,13 @@ pub use mesh::Mesh;
 pub use once::OneShot;
 pub use options::{CommitOptions, QueryOptions};
 pub use parallel::ParallelFor;
+pub use primitive_id::PrimitiveId;
 pub use profile::{LoadedProfile, Profile, ProfileInfo, ProfileSource, ProfileWarning};
 pub use questions::RayQueries;
 pub use ray::Ray;
 pub use rays::{PerRayNumber, PerRayVector, Rays};
 pub use scene::{Bounds, Scene};
+pub use skip::{PerEntryId, RayOptions, SkipLists};
 pub use statistics::{GridStatistics, SceneStatistics};
 pub use status::Status;
 pub use structures::structures;

@@ -5,7 +5,7 @@ use raywise_sys as sys;
 use crate::hits::Output;
 use crate::library::check;
 use crate::rays::same_length;
-use crate::{AllHits, Candidate, Error, Flag, Hit, Hits, HitsMut, QueryOptions, Ray, Rays, Result};
+use crate::{AllHits, Candidate, Error, Flag, Hit, Hits, HitsMut, QueryOptions, Ray, RayOptions, Rays, Result};
 
 use functions::Asked;
 
@@ -32,23 +32,48 @@ pub trait RayQueries: Asked {
         Ok(occluded != 0)
     }
 
-    /// Finds every hit of one ray, closest first. Wraps `rw_scene_intersect_all`.
+    /// Finds every hit of one ray, closest first. A surface that is crossed at an edge or a corner counts once; the first
+    /// hit is the one that [`intersect`](RayQueries::intersect) finds. Wraps `rw_scene_intersect_all`.
     fn intersect_all(&self, ray: &Ray) -> Result<Vec<Hit>> {
-        let mut hits = vec![sys::rw_hit::default(); 16];
-        loop {
-            let (ray, capacity, mut needed) = (ray.raw(), hits.len() as u64, 0);
-            // SAFETY: the handle lives, and there is room for `capacity` answers.
-            let status = unsafe {
-                (Self::FUNCTIONS.intersect_all)(self.as_ptr(), &ray, hits.as_mut_ptr(), capacity, &mut needed)
-            };
-            if status == sys::RW_ERROR_CAPACITY && needed > capacity {
-                hits.resize(needed as usize, sys::rw_hit::default());
-                continue;
-            }
-            check(status)?;
-            hits.truncate(needed as usize);
-            return Ok(hits.iter().filter_map(Hit::from_raw).collect());
-        }
+        let ray = ray.raw();
+        all_of_ray(|hits, capacity, needed| {
+            // SAFETY: the handle and the ray live, and there is room for `capacity` answers.
+            unsafe { (Self::FUNCTIONS.intersect_all)(self.as_ptr(), &ray, hits, capacity, needed) }
+        })
+    }
+
+    /// Finds the closest hit of a ray that skips triangles. Wraps `rw_scene_intersect_with`.
+    ///
+    /// # Errors
+    /// [`Status::INDEX_OUT_OF_RANGE`](crate::Status::INDEX_OUT_OF_RANGE) for a triangle that is not there.
+    fn intersect_with(&self, ray: &Ray, options: &RayOptions<'_>) -> Result<Option<Hit>> {
+        let (options, mut hit) = (options.raw()?, sys::rw_hit::default());
+        // SAFETY: the handle lives, and ray, options with their list, and hit live through the call.
+        check(unsafe { (Self::FUNCTIONS.intersect_with)(self.as_ptr(), &ray.raw(), &options, &mut hit) })?;
+        Ok(Hit::from_raw(&hit))
+    }
+
+    /// Tells whether a ray that skips triangles hits any other. Wraps `rw_scene_occluded_with`.
+    ///
+    /// # Errors
+    /// As [`intersect_with`](RayQueries::intersect_with).
+    fn occluded_with(&self, ray: &Ray, options: &RayOptions<'_>) -> Result<bool> {
+        let (options, mut occluded) = (options.raw()?, 0);
+        // SAFETY: as in `intersect_with`.
+        check(unsafe { (Self::FUNCTIONS.occluded_with)(self.as_ptr(), &ray.raw(), &options, &mut occluded) })?;
+        Ok(occluded != 0)
+    }
+
+    /// Finds every hit of a ray that skips triangles, closest first. Wraps `rw_scene_intersect_all_with`.
+    ///
+    /// # Errors
+    /// As [`intersect_with`](RayQueries::intersect_with).
+    fn intersect_all_with(&self, ray: &Ray, options: &RayOptions<'_>) -> Result<Vec<Hit>> {
+        let (ray, options) = (ray.raw(), options.raw()?);
+        all_of_ray(|hits, capacity, needed| {
+            // SAFETY: handle, ray and options with their list live, and there is room for `capacity` answers.
+            unsafe { (Self::FUNCTIONS.intersect_all_with)(self.as_ptr(), &ray, &options, hits, capacity, needed) }
+        })
     }
 
     /// Finds the closest hit of many rays. Wraps `rw_scene_intersect_batch`.
@@ -111,7 +136,8 @@ pub trait RayQueries: Asked {
         Ok(invalid_rays)
     }
 
-    /// Finds every hit of many rays. Wraps `rw_scene_intersect_all_batch`.
+    /// Finds every hit of many rays; as [`intersect_all`](RayQueries::intersect_all) for each. Wraps
+    /// `rw_scene_intersect_all_batch`.
     fn intersect_all_batch(&self, rays: &Rays<'_>) -> Result<AllHits> {
         self.intersect_all_batch_with(rays, &QueryOptions::new())
     }
@@ -180,6 +206,22 @@ pub trait RayQueries: Asked {
     }
 }
 
+/// Asks for all hits of one ray, by a function of (place for hits, capacity, place for the number needed).
+fn all_of_ray(ask: impl Fn(*mut sys::rw_hit, u64, &mut u64) -> i32) -> Result<Vec<Hit>> {
+    let mut hits = vec![sys::rw_hit::default(); 16];
+    loop {
+        let (capacity, mut needed) = (hits.len() as u64, 0);
+        let status = ask(hits.as_mut_ptr(), capacity, &mut needed);
+        if status == sys::RW_ERROR_CAPACITY && needed > capacity {
+            hits.resize(needed as usize, sys::rw_hit::default());
+            continue;
+        }
+        check(status)?;
+        hits.truncate(needed as usize);
+        return Ok(hits.iter().filter_map(Hit::from_raw).collect());
+    }
+}
+
 fn all_batch<A: Asked + ?Sized>(
     asked: &A,
     rays: &Rays<'_>,
@@ -229,6 +271,18 @@ pub(crate) mod functions {
         pub(crate) occluded: unsafe extern "C" fn(*const R, *const sys::rw_ray, *mut i32) -> i32,
         pub(crate) intersect_all:
             unsafe extern "C" fn(*const R, *const sys::rw_ray, *mut sys::rw_hit, u64, *mut u64) -> i32,
+        pub(crate) intersect_with:
+            unsafe extern "C" fn(*const R, *const sys::rw_ray, *const sys::rw_ray_options, *mut sys::rw_hit) -> i32,
+        pub(crate) occluded_with:
+            unsafe extern "C" fn(*const R, *const sys::rw_ray, *const sys::rw_ray_options, *mut i32) -> i32,
+        pub(crate) intersect_all_with: unsafe extern "C" fn(
+            *const R,
+            *const sys::rw_ray,
+            *const sys::rw_ray_options,
+            *mut sys::rw_hit,
+            u64,
+            *mut u64,
+        ) -> i32,
         pub(crate) intersect_batch: unsafe extern "C" fn(
             *const R,
             *const sys::rw_rays,
@@ -270,12 +324,15 @@ impl<A: Asked> RayQueries for A {}
 
 /// The table of one handle type, from the C names.
 macro_rules! functions_of {
-    ($intersect:ident, $occluded:ident, $all:ident, $batch:ident, $occluded_batch:ident, $all_batch:ident,
-     $count:ident, $candidate:ident, $explain:ident) => {
+    ($intersect:ident, $occluded:ident, $all:ident, $with:ident, $occluded_with:ident, $all_with:ident,
+     $batch:ident, $occluded_batch:ident, $all_batch:ident, $count:ident, $candidate:ident, $explain:ident) => {
         $crate::questions::functions::Functions {
             intersect: raywise_sys::$intersect,
             occluded: raywise_sys::$occluded,
             intersect_all: raywise_sys::$all,
+            intersect_with: raywise_sys::$with,
+            occluded_with: raywise_sys::$occluded_with,
+            intersect_all_with: raywise_sys::$all_with,
             intersect_batch: raywise_sys::$batch,
             occluded_batch: raywise_sys::$occluded_batch,
             intersect_all_batch: raywise_sys::$all_batch,

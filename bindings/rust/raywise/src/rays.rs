@@ -5,7 +5,7 @@ use raywise_sys as sys;
 use crate::arrays::{repeated, Scalars, Vectors};
 use crate::element::Float;
 use crate::library::size_of_struct;
-use crate::{Error, Result};
+use crate::{Error, Result, SkipLists};
 
 /// An origin or a direction for every ray, or one for all of them.
 #[derive(Clone, Copy, Debug)]
@@ -52,18 +52,18 @@ impl<'a> From<Scalars<'a>> for PerRayNumber<'a> {
 }
 
 macro_rules! each_from_rows {
-    ($to:ident, $through:ident, $row:ty) => {
-        impl<'a, T: Float> From<&'a [$row]> for $to<'a> {
+    ($to:ident, $through:ident, $bound:ident, $row:ty) => {
+        impl<'a, T: $bound> From<&'a [$row]> for $to<'a> {
             fn from(rows: &'a [$row]) -> Self {
                 $to::Each($through::from(rows))
             }
         }
-        impl<'a, T: Float> From<&'a Vec<$row>> for $to<'a> {
+        impl<'a, T: $bound> From<&'a Vec<$row>> for $to<'a> {
             fn from(rows: &'a Vec<$row>) -> Self {
                 $to::Each($through::from(rows))
             }
         }
-        impl<'a, T: Float, const N: usize> From<&'a [$row; N]> for $to<'a> {
+        impl<'a, T: $bound, const N: usize> From<&'a [$row; N]> for $to<'a> {
             fn from(rows: &'a [$row; N]) -> Self {
                 $to::Each($through::from(rows))
             }
@@ -71,8 +71,10 @@ macro_rules! each_from_rows {
     };
 }
 
-each_from_rows!(PerRayVector, Vectors, [T; 3]);
-each_from_rows!(PerRayNumber, Scalars, T);
+pub(crate) use each_from_rows;
+
+each_from_rows!(PerRayVector, Vectors, Float, [T; 3]);
+each_from_rows!(PerRayNumber, Scalars, Float, T);
 
 /// Many rays in the caller's arrays (`rw_rays`). Nothing is copied.
 ///
@@ -89,6 +91,7 @@ pub struct Rays<'a> {
     directions: PerRayVector<'a>,
     tmin: Option<PerRayNumber<'a>>,
     tmax: Option<PerRayNumber<'a>>,
+    skip: Option<SkipLists<'a>>,
     count: usize,
 }
 
@@ -110,7 +113,7 @@ impl<'a> Rays<'a> {
                 origins.len()
             }
         };
-        Ok(Rays { origins, directions, tmin: None, tmax: None, count })
+        Ok(Rays { origins, directions, tmin: None, tmax: None, skip: None, count })
     }
 
     /// The least t that counts: a slice with one number per ray, or one `f64` for all.
@@ -128,6 +131,28 @@ impl<'a> Rays<'a> {
     /// [`Error::Length`] when there is not one per ray.
     pub fn with_tmax(mut self, tmax: impl Into<PerRayNumber<'a>>) -> Result<Self> {
         self.tmax = Some(self.one_per_ray("tmax", tmax.into())?);
+        Ok(self)
+    }
+
+    /// Triangles that single rays pass through without a hit: [`SkipLists`], or `&Hits` or `&AllHits` of as many rays.
+    ///
+    /// ```
+    /// use raywise::{Hits, Rays, RayQueries, Result};
+    /// fn next_hits(scene: &impl RayQueries, rays: &Rays<'_>, previous: &Hits) -> Result<Hits> {
+    ///     scene.intersect_batch(&rays.with_skip(previous)?)
+    /// }
+    /// ```
+    ///
+    /// An id that is not there is found when the rays are asked about:
+    /// [`Status::INDEX_OUT_OF_RANGE`](crate::Status::INDEX_OUT_OF_RANGE).
+    ///
+    /// # Errors
+    /// [`Error::Length`] when there is not a list for each ray and an id for each of their entries, [`Error::Falling`]
+    /// when an offset is below the one before it.
+    pub fn with_skip(mut self, skip: impl Into<SkipLists<'a>>) -> Result<Self> {
+        let skip = skip.into();
+        skip.check(self.count)?;
+        self.skip = Some(skip);
         Ok(self)
     }
 
@@ -162,15 +187,19 @@ impl<'a> Rays<'a> {
             Some(PerRayNumber::One(number)) => repeated(number),
             Some(PerRayNumber::Each(numbers)) => numbers.raw(),
         };
-        sys::rw_rays {
+        let mut raw = sys::rw_rays {
             struct_size: size_of_struct::<sys::rw_rays>(),
-            flags: 0,
             count: self.count as u64,
             origin: vector(&self.origins),
             direction: vector(&self.directions),
             tmin: number(&self.tmin),
             tmax: number(&self.tmax),
+            ..sys::rw_rays::default()
+        };
+        if let Some(skip) = &self.skip {
+            skip.add_to(&mut raw);
         }
+        raw
     }
 }
 

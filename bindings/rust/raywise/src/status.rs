@@ -52,7 +52,7 @@ statuses! {
     NOT_FINITE = RW_ERROR_NOT_FINITE;
     /// A float64 vertex lies beyond what a float32 box can hold.
     COORDINATE_RANGE = RW_ERROR_COORDINATE_RANGE;
-    /// A triangle names a vertex that is not there.
+    /// An index or id names a vertex, geometry or triangle that is not there.
     INDEX_OUT_OF_RANGE = RW_ERROR_INDEX_OUT_OF_RANGE;
     /// More vertices, triangles or rays than the ids can count.
     TOO_MANY = RW_ERROR_TOO_MANY;

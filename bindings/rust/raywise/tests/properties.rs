@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{bits, columns, scenes, TestMesh};
+use common::{bits, columns, scene_with, scenes, TestMesh};
 use proptest::prelude::*;
-use raywise::{Ray, RayQueries, Rays, SceneBuilder, Triangles};
+use raywise::{PrimitiveId, Ray, RayOptions, RayQueries, Rays, SceneBuilder, SkipLists, Triangles};
 
 /// Coordinates from a coarse lattice, where edges, corners, planes and ties are met all the time, or from anywhere.
 fn coordinate() -> impl Strategy<Value = f64> {
@@ -69,6 +69,51 @@ proptest! {
             for (index, expected) in all.iter().enumerate() {
                 let of_ray: Vec<_> = found.of_ray(index).map(|hit| bits(Some(hit))).collect();
                 prop_assert_eq!(&of_ray, expected, "{}, ray {}", structure, index);
+            }
+        }
+    }
+
+    /// To a ray that skips a triangle it is as one without area: in every structure and in every form, also where the
+    /// ray passes exactly through edges and corners.
+    #[test]
+    fn a_skipped_triangle_is_as_one_without_area(
+        mesh in mesh(),
+        rays in proptest::collection::vec(ray(), 1..20),
+        chosen in proptest::collection::vec(any::<proptest::sample::Index>(), 0..8),
+    ) {
+        let (mut whole, count) = (mesh.clone(), mesh.triangles.len());
+        let skip: Vec<u32> = chosen.iter().filter(|_| count > 0).map(|index| index.index(count) as u32).collect();
+        // One triangle more keeps the bounds of both scenes the same.
+        let first = whole.vertices.len() as u32;
+        whole.vertices.extend([[-9.0, -9.0, -9.0], [-9.0, 9.0, 9.0], [9.0, 9.0, 8.0]]);
+        whole.triangles.push([first, first + 1, first + 2]);
+        let mut holed = whole.clone();
+        for triangle in &skip {
+            holed.triangles[*triangle as usize] = [0; 3];
+        }
+        let judge = scene_with("linear_scan", &holed).unwrap();
+
+        let (origins, directions) = columns(&rays);
+        let tmin: Vec<f64> = rays.iter().map(|ray| ray.tmin).collect();
+        let tmax: Vec<f64> = rays.iter().map(|ray| ray.tmax).collect();
+        let offsets: Vec<u64> = (0..=rays.len()).map(|ray| (ray * skip.len()) as u64).collect();
+        let primitive = skip.repeat(rays.len());
+        let plain = Rays::new(&origins, &directions).unwrap().with_tmin(&tmin).unwrap().with_tmax(&tmax).unwrap();
+        let skipping = plain.with_skip(SkipLists::lists(&offsets, &primitive)).unwrap();
+        let ids: Vec<PrimitiveId> = skip.iter().map(|triangle| PrimitiveId::new(0, *triangle)).collect();
+        let options = RayOptions::new().skip(&ids);
+
+        for (structure, scene) in scenes(&whole).unwrap() {
+            prop_assert_eq!(scene.intersect_batch(&skipping).unwrap(), judge.intersect_batch(&plain).unwrap());
+            prop_assert_eq!(scene.occluded_batch(&skipping).unwrap(), judge.occluded_batch(&plain).unwrap());
+            prop_assert_eq!(scene.intersect_all_batch(&skipping).unwrap(), judge.intersect_all_batch(&plain).unwrap());
+            for ray in &rays {
+                let (found, expected) = (scene.intersect_with(ray, &options).unwrap(), judge.intersect(ray).unwrap());
+                prop_assert_eq!(bits(found), bits(expected), "{} {:?}", structure, ray);
+                let occluded = scene.occluded_with(ray, &options).unwrap();
+                prop_assert_eq!(occluded, expected.is_some(), "{} {:?}", structure, ray);
+                let found = scene.intersect_all_with(ray, &options).unwrap();
+                prop_assert_eq!(found, judge.intersect_all(ray).unwrap(), "{} {:?}", structure, ray);
             }
         }
     }

@@ -137,7 +137,9 @@ pub fn scenes(mesh: &TestMesh) -> Result<Vec<(&'static str, Scene)>> {
 }
 
 /// A hit as bits, for comparisons that let nothing pass.
-pub fn bits(hit: Option<Hit>) -> Option<([u64; 6], [Option<u32>; 3])> {
+pub type Bits = Option<([u64; 6], [Option<u32>; 3])>;
+
+pub fn bits(hit: Option<Hit>) -> Bits {
     hit.map(|hit| {
         let [x, y, z] = hit.normal;
         let numbers = [hit.t, hit.u, hit.v, x, y, z].map(f64::to_bits);
