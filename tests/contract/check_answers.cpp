@@ -32,7 +32,8 @@ std::string said(const Answer& answer) { return ", got " + text_of(answer); }
 
 // Exact answers, widened and narrowed by the library's tolerance at the ends of the interval.
 struct Bounds {
-    Bounds(const ExactScene& exact, const Ray& ray, double tolerance) : tolerance_(tolerance) {
+    Bounds(const ExactScene& exact, const Ray& ray, double tolerance, const Capabilities& capabilities)
+        : exact_(exact), ray_(ray), tolerance_(tolerance), decides_exactly_(capabilities.decides_exactly) {
         Ray wide = ray;
         wide.tmin -= tolerance;
         wide.tmax += tolerance;
@@ -46,7 +47,8 @@ struct Bounds {
 
     bool all_certain() const { return std::find(certain.begin(), certain.end(), false) == certain.end(); }
 
-    // Whether these are all triangles touched, each once: an honest list, though no count of crossings.
+    // Whether these are all triangles touched, each once: an honest list, though no count of crossings. Those met edge-on may be
+    // in it.
     bool are_all_touched(const std::vector<Answer>& all) const {
         std::size_t listed = 0;
         for (std::size_t i = 0; i < possible.touched.size(); ++i) {
@@ -56,7 +58,10 @@ struct Bounds {
             if (times > 1 || (times == 0 && certain[i])) return false;
             listed += static_cast<std::size_t>(times);
         }
-        return listed == all.size();
+        const auto edge_on = std::count_if(all.begin(), all.end(), [&](const Answer& answer) {
+            return exact_.is_edge_on(ray_, id_of(answer)) && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+        });
+        return listed + static_cast<std::size_t>(edge_on) == all.size();
     }
 
     // What is wrong with a triangle being hit there; empty: nothing.
@@ -67,7 +72,14 @@ struct Bounds {
             if (near(t, answer.t, tolerance_)) return "";
             return "expected triangle " + id_text(touch.id) + " at t " + text_of(t) + said(answer);
         }
+        if (!decides_exactly_ && is_beside_a_touched_one(answer)) return "";
         return "expected no hit of a triangle that the ray does not touch" + said(answer);
+    }
+
+    // Whether it is a hit as good as the first one.
+    bool is_first(const Answer& answer) const {
+        return answer.hit && fault_in_place(answer).empty() &&
+               (!first_certain || answer.t <= *first_certain + 2.0 * tolerance_);
     }
 
     ExactAnswers possible;
@@ -75,7 +87,18 @@ struct Bounds {
     std::vector<bool> certain;           // of each possible hit: whether it has to be found
 
 private:
+    // Something is touched there, and the triangle named is next to it.
+    bool is_beside_a_touched_one(const Answer& answer) const {
+        const bool touched = std::any_of(
+            possible.touched.begin(), possible.touched.end(),
+            [&](const ExactAnswer& touch) { return near(touch.t.convert_to<double>(), answer.t, tolerance_); });
+        return touched && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+    }
+
+    const ExactScene& exact_;
+    const Ray& ray_;
     double tolerance_;
+    bool decides_exactly_;
 };
 
 std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double tolerance, bool counts_crossings) {
@@ -182,16 +205,19 @@ Verdict check(const Expectation& expectation, const Ray& ray, const Answers& ans
     // NaN for rays without a direction, which nothing is measured along.
     const double reach = exact.reach(ray);
     const double tolerance = std::isfinite(reach) ? capabilities.t_tolerance * reach : 0.0;
+    const auto bounds = [&] { return Bounds(exact, ray, tolerance, capabilities); };
     if (expectation.kind == Expected::exact) {
-        why = fault_in_exact(answers, Bounds(exact, ray, tolerance), tolerance, capabilities.counts_crossings);
+        why = fault_in_exact(answers, bounds(), tolerance, capabilities.counts_crossings);
     } else if (expectation.kind == Expected::plane) {
-        why = answers.closest.hit ? Bounds(exact, ray, tolerance).fault_in_place(answers.closest) : "";
+        why = answers.closest.hit ? bounds().fault_in_place(answers.closest) : "";
     } else if (describe(expectation.kind).needs_all) {
         why = fault_in_all(expectation, *answers.all, tolerance);
-        if (!why.empty() && !capabilities.counts_crossings && Bounds(exact, ray, tolerance).are_all_touched(*answers.all))
-            why.clear();
+        if (!why.empty() && !capabilities.counts_crossings && bounds().are_all_touched(*answers.all)) why.clear();
     } else {
         why = fault_in_closest(expectation, answers.closest, tolerance);
+        if (!why.empty() && expectation.kind == Expected::primitive && !capabilities.orders_ties &&
+            bounds().is_first(answers.closest))
+            why.clear();
     }
     return why.empty() ? Verdict::met : Verdict::not_met;
 }

@@ -1,5 +1,7 @@
 #include "contract/exact_hits.h"
 
+#include "contract/nearness.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,6 +98,27 @@ double ExactScene::reach(const Ray& ray) const {
     return static_cast<double>(std::hypot(farthest(0), farthest(1), farthest(2)) / length(ray.direction));
 }
 
+const ExactScene::Triangle* ExactScene::find(const PrimitiveId& id) const {
+    const auto found =
+        std::find_if(triangles_.begin(), triangles_.end(), [&](const Triangle& triangle) { return triangle.id == id; });
+    return found == triangles_.end() ? nullptr : &*found;
+}
+
+double ExactScene::distance(const Ray& ray, double t, const PrimitiveId& id) const {
+    const Triangle* triangle = find(id);
+    if (triangle == nullptr) return std::numeric_limits<double>::infinity();
+    return contract::distance(ray.origin + t * ray.direction, triangle->corners) / glm::length(ray.direction);
+}
+
+bool ExactScene::is_edge_on(const Ray& ray, const PrimitiveId& id) const {
+    const Triangle* triangle = find(id);
+    if (triangle == nullptr || !is_finite(ray.origin) || !is_finite(ray.direction)) return false;
+    const Point a = exact(triangle->corners[0]);
+    const Point e1 = minus(exact(triangle->corners[1]), a);
+    const Point e2 = minus(exact(triangle->corners[2]), a);
+    return determinant(exact(ray.direction), e1, e2) == 0 && determinant(minus(exact(ray.origin), a), e1, e2) == 0;
+}
+
 // A slab test that leaves a thousand times more room than its rounding needs, so that the judge is asked about everything the ray
 // could touch and not about all the rest.
 bool ExactScene::may_touch(const Triangle& triangle, const Ray& ray, double slack) const {
@@ -143,7 +166,7 @@ ExactAnswers ExactScene::answers(const Ray& ray) const {
         if (!within(hit.t)) continue;
         const Triangle& triangle = triangles_[kept[hit.primitive]];
         result.touched.push_back({hit.t, triangle.id, true});
-        touches.push_back({std::move(hit), triangle.corners});
+        touches.push_back({std::move(hit), triangle.corners.data()});
     }
     if (std::none_of(touches.begin(), touches.end(), [](const Touch& touch) { return touch.on_border(); }))
         return result;

@@ -92,7 +92,19 @@ private:
 
     // CGAL's rays begin where they begin, so an interval moves their ends.
     static Point point_at(const Ray& ray, double t) {
-        return t == 0.0 ? point(ray.origin) : point(ray.origin + t * ray.direction);
+        if (t == 0.0) return point(ray.origin);
+        Vec3 end;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double o = at(ray.origin, axis);
+            const double step = t * at(ray.direction, axis);
+            const double sum = o + step;
+            const double step_error = std::fma(t, at(ray.direction, axis), -step);
+            const double sum_error = (o - (sum - (sum - o))) + (step - (sum - o)); // Knuth's two-sum
+            if (step_error != 0.0 || sum_error != 0.0)
+                throw Inexpressible("CGAL takes an interval by its ends, and the end has no float64 coordinates");
+            end[axis] = sum;
+        }
+        return point(end);
     }
 
     static HalfLine half_line(const Ray& ray) {
@@ -149,6 +161,7 @@ public:
     Capabilities capabilities() const override {
         Capabilities capabilities;
         capabilities.orders_ties = false;
+        capabilities.decides_exactly = false;
         capabilities.counts_crossings = false;
         capabilities.t_tolerance = 1e-9;
         return capabilities;

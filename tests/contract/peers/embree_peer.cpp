@@ -158,6 +158,7 @@ public:
     Capabilities capabilities() const override {
         Capabilities capabilities;
         capabilities.orders_ties = false;
+        capabilities.decides_exactly = false;
         capabilities.counts_crossings = false;
         capabilities.t_tolerance = 1e-5;
         return capabilities;

@@ -109,6 +109,7 @@ PeerProcess::PeerProcess(std::vector<std::string> command, ProcessLimits limits,
     capabilities_.refuses_bad_meshes = told.at("refuses_bad_meshes").get<bool>();
     capabilities_.many_geometries = told.at("many_geometries").get<bool>();
     capabilities_.orders_ties = told.at("orders_ties").get<bool>();
+    capabilities_.decides_exactly = told.at("decides_exactly").get<bool>();
     capabilities_.counts_crossings = told.at("counts_crossings").get<bool>();
     capabilities_.t_tolerance = told.at("t_tolerance").get<double>();
 }

@@ -35,12 +35,12 @@ Tally tally_of(const LibraryResult& result, const std::string& family = "") {
     return tally;
 }
 
-// So that a text stays within its cell.
+// So that a text stays within its cell. Of several lines the first says it.
 std::string cell(const std::string& text) {
     std::string out;
-    for (const char c : text) {
+    for (const char c : text.substr(0, text.find('\n'))) {
         if (c == '|' || c == '*' || c == '_' || c == '<') out += '\\';
-        out += c == '\n' ? ' ' : c;
+        out += c;
     }
     return out;
 }
@@ -67,6 +67,10 @@ std::string pass_table(const std::vector<Family>& families, const std::vector<En
     }
     text += row_of("**all**", entrants,
                    [](const LibraryResult& result) { return "**" + tally_of(result).text() + "**"; });
+    text += row_of("by closest hit alone", entrants, [](const LibraryResult& result) {
+        const Tally tally = tally_of(result);
+        return std::to_string(result.passed_by_closest()) + "/" + std::to_string(tally.passed + tally.failed);
+    });
     text += row_of("not applicable", entrants,
                    [](const LibraryResult& result) { return std::to_string(tally_of(result).not_applicable); });
     return text + row_of("failed, matters of convention", entrants, [](const LibraryResult& result) {
@@ -163,6 +167,7 @@ nlohmann::ordered_json peers_json(const RunFacts& facts, const std::vector<Entra
         summary[entrant.result.library] = {{"version", entrant.version},
                                            {"hard_cases_passed", tally.passed},
                                            {"hard_cases", tally.passed + tally.failed},
+                                           {"passed_by_closest_hit", entrant.result.passed_by_closest()},
                                            {"not_applicable", tally.not_applicable},
                                            {"failed_conventions", tally.failed_conventions}};
         results.push_back(entrant.result);

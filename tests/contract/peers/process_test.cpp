@@ -47,6 +47,7 @@ TEST(PeerProcess, TellsWhatTheLibraryTellsOfItself) {
     EXPECT_TRUE(peer.capabilities().has_any);
     EXPECT_TRUE(peer.capabilities().has_batch);
     EXPECT_FALSE(peer.capabilities().orders_ties);
+    EXPECT_FALSE(peer.capabilities().decides_exactly);
     EXPECT_FALSE(peer.capabilities().counts_crossings);
     EXPECT_EQ(peer.capabilities().t_tolerance, 0.25);
 }

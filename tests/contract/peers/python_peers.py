@@ -152,6 +152,7 @@ def description(name, version, **capabilities):
         "refuses_bad_meshes": False,
         "many_geometries": False,
         "orders_ties": False,
+        "decides_exactly": False,
         "counts_crossings": False,
         "t_tolerance": 1e-9,
     }
@@ -208,13 +209,6 @@ class TrimeshBase:
         answers = self.answers(ray, triangles, locations)
         return answers[0] if answers else None
 
-    def all(self, ray):
-        # With locations, as trimesh advises those who count: hits at the same place are then one.
-        triangles, _, locations = self.intersector.intersects_id(
-            **self.question(ray), multiple_hits=True, return_locations=True
-        )
-        return self.answers(ray, triangles, locations)
-
     def any(self, ray):
         return bool(self.intersector.intersects_any(**self.question(ray))[0])
 
@@ -230,6 +224,19 @@ class Trimesh(TrimeshBase):
 
         return RayMeshIntersector(mesh)
 
+    def all(self, ray):
+        # What the intersector's methods call: they tell either no places, or merge the triangles hit at the same place.
+        from trimesh.ray.ray_triangle import ray_triangle_id
+
+        triangles, _, locations = ray_triangle_id(
+            triangles=self.mesh.triangles,
+            triangles_normal=self.mesh.face_normals,
+            tree=self.mesh.triangles_tree,
+            multiple_hits=True,
+            **self.question(ray),
+        )
+        return self.answers(ray, triangles, locations)
+
 
 class TrimeshWithEmbreex(TrimeshBase):
     """trimesh as it is once embreex is installed: Embree 4 on a mesh scaled to a common size, hit after hit."""
@@ -241,6 +248,12 @@ class TrimeshWithEmbreex(TrimeshBase):
         from trimesh.ray.ray_pyembree import RayMeshIntersector
 
         return RayMeshIntersector(mesh)
+
+    def all(self, ray):
+        triangles, _, locations = self.intersector.intersects_id(
+            **self.question(ray), multiple_hits=True, return_locations=True
+        )
+        return self.answers(ray, triangles, locations)
 
 
 class Embreex:

@@ -115,7 +115,7 @@ class Messages(unittest.TestCase):
         told = json.loads(text)
         self.assertEqual(kind, python_peers.OK)
         self.assertEqual((told["name"], told["version"], told["has_all"]), ("made up", "1.0", False))
-        self.assertEqual(len(told), 10)
+        self.assertEqual(len(told), 11)
 
 
 class Rays(unittest.TestCase):

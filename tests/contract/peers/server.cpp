@@ -48,6 +48,7 @@ std::string description(const Library& library, const std::string& version) {
                           {"refuses_bad_meshes", has.refuses_bad_meshes},
                           {"many_geometries", has.many_geometries},
                           {"orders_ties", has.orders_ties},
+                          {"decides_exactly", has.decides_exactly},
                           {"counts_crossings", has.counts_crossings},
                           {"t_tolerance", has.t_tolerance}}
         .dump();

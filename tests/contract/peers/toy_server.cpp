@@ -53,6 +53,7 @@ public:
         Capabilities capabilities;
         capabilities.has_batch = true;
         capabilities.orders_ties = false;
+        capabilities.decides_exactly = false;
         capabilities.counts_crossings = false;
         capabilities.t_tolerance = 0.25;
         return capabilities;

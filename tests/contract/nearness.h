@@ -1,0 +1,13 @@
+// How far a point is from a triangle: what libraries are allowed that do not decide by exact arithmetic.
+#pragma once
+
+#include "base/vec.h"
+
+#include <array>
+
+namespace raywise::contract {
+
+// Rounded, and NaN for a triangle without area.
+double distance(const Vec3& point, const std::array<Vec3, 3>& corners);
+
+} // namespace raywise::contract
