@@ -50,18 +50,15 @@ struct Bounds {
     // Whether these are all triangles touched, each once: an honest list, though no count of crossings. Those met edge-on may be
     // in it.
     bool are_all_touched(const std::vector<Answer>& all) const {
-        std::size_t listed = 0;
+        const auto times = [&](const PrimitiveId& id) {
+            return std::count_if(all.begin(), all.end(), [&](const Answer& answer) { return id_of(answer) == id; });
+        };
         for (std::size_t i = 0; i < possible.touched.size(); ++i) {
-            const auto times = std::count_if(all.begin(), all.end(), [&](const Answer& answer) {
-                return possible.touched[i].id == id_of(answer) && fault_in_place(answer).empty();
-            });
-            if (times > 1 || (times == 0 && certain[i])) return false;
-            listed += static_cast<std::size_t>(times);
+            if (certain[i] && times(possible.touched[i].id) == 0) return false;
         }
-        const auto edge_on = std::count_if(all.begin(), all.end(), [&](const Answer& answer) {
-            return exact_.is_edge_on(ray_, id_of(answer)) && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+        return std::all_of(all.begin(), all.end(), [&](const Answer& answer) {
+            return times(id_of(answer)) == 1 && (fault_in_place(answer).empty() || is_met_edge_on(answer));
         });
-        return listed + static_cast<std::size_t>(edge_on) == all.size();
     }
 
     // What is wrong with a triangle being hit there; empty: nothing.
@@ -93,6 +90,10 @@ private:
             possible.touched.begin(), possible.touched.end(),
             [&](const ExactAnswer& touch) { return near(touch.t.convert_to<double>(), answer.t, tolerance_); });
         return touched && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+    }
+
+    bool is_met_edge_on(const Answer& answer) const {
+        return exact_.is_edge_on(ray_, id_of(answer)) && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
     }
 
     const ExactScene& exact_;

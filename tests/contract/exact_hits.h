@@ -40,8 +40,8 @@ public:
     // Distance from the origin to the farthest corner, in units of the direction: what tolerances of t refer to.
     double reach(const Ray& ray) const;
 
-    // How far the ray's point at t is from a triangle, in units of the direction; rounded. Infinite, or NaN, where there is no
-    // such triangle or it has no area.
+    // How far the ray's point at t is from a triangle, in units of the direction; rounded. Infinite where there is no such
+    // triangle or it has no area.
     double distance(const Ray& ray, double t, const PrimitiveId& id) const;
 
     // Whether the ray runs in the triangle's plane, exactly.

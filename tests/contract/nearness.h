@@ -7,7 +7,7 @@
 
 namespace raywise::contract {
 
-// Rounded, and NaN for a triangle without area.
+// Rounded. A triangle without area is infinitely far away: it is never hit.
 double distance(const Vec3& point, const std::array<Vec3, 3>& corners);
 
 } // namespace raywise::contract

@@ -20,8 +20,8 @@ TEST(Nearness, OfPointsBesideEdgesAndCorners) {
     EXPECT_DOUBLE_EQ(distance({7.0, -4.0, 0.0}, triangle), 5.0);
 }
 
-TEST(Nearness, OfATriangleWithoutAreaIsNone) {
-    EXPECT_TRUE(std::isnan(distance({1.0, 1.0, 1.0}, {Vec3(0.0), Vec3(1.0), Vec3(2.0)})));
+TEST(Nearness, ATriangleWithoutAreaIsNearNothing) {
+    EXPECT_TRUE(std::isinf(distance({1.0, 1.0, 1.0}, {Vec3(0.0), Vec3(1.0), Vec3(2.0)})));
 }
 
 } // namespace

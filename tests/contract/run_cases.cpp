@@ -172,7 +172,7 @@ private:
     const std::string file_;
     const Case& case_;
     CaseResult result_;
-    std::string inexpressible_;  // why a ray could not be asked
+    std::string inexpressible_; // why a ray could not be asked
     std::uint64_t checked_ = 0; // expectations that the library has a call for
 };
 
@@ -195,8 +195,7 @@ LibraryResult run_cases(Library& library, const std::vector<Family>& families, c
     LibraryResult result{library.name(), {}};
     for (const Family& family : families) {
         if (options.begins) options.begins(family.name);
-        for (const Case& source : family.cases)
-            result.cases.push_back(CaseRun(library, family, source).run(options));
+        for (const Case& source : family.cases) result.cases.push_back(CaseRun(library, family, source).run(options));
     }
     return result;
 }

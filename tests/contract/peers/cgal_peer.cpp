@@ -61,8 +61,7 @@ public:
             list(half_line(ray), ray, answers);
         else
             list(segment(ray), ray, answers);
-        std::stable_sort(answers.begin(), answers.end(),
-                         [](const Answer& a, const Answer& b) { return a.t < b.t; });
+        std::stable_sort(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) { return a.t < b.t; });
     }
 
     void closest_batch(const std::vector<Ray>&, std::vector<Answer>&) override {

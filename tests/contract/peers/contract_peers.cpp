@@ -95,9 +95,10 @@ LibraryResult run(Library& library, const std::vector<Family>& families, const O
 Entrant raywise_entrant(const std::vector<Family>& families, const Options& options) {
     std::vector<LibraryResult> forms;
     for (const auto& library : raywise_libraries()) forms.push_back(run(*library, families, options));
-    return {raywise_version(),
-            "Through its C ABI: every structure, forced by name, and views. float64, or float32 where the case says so.",
-            together("raywise", forms)};
+    return {
+        raywise_version(),
+        "Through its C ABI: every structure, forced by name, and views. float64, or float32 where the case says so.",
+        "", together("raywise", forms)};
 }
 
 Entrant entrant_of(const Peer& peer, const std::vector<Family>& families, const Options& options) {
@@ -106,7 +107,7 @@ Entrant entrant_of(const Peer& peer, const std::vector<Family>& families, const 
                          : std::vector<std::string>{options.program, "--serve", peer.key};
     PeerProcess process(command, {std::chrono::seconds(options.seconds), most_memory}, options.log);
     LibraryResult result = run(process, families, options);
-    return {process.version(), peer.note, std::move(result)};
+    return {process.version(), peer.note, peer.why, std::move(result)};
 }
 
 std::vector<const Peer*> wanted_peers(const Options& options) {
@@ -147,9 +148,10 @@ void serve_peer(const Peer& peer) {
 int run(int argc, char** argv) {
     Options options;
     options.program = std::filesystem::read_symlink("/proc/self/exe").string();
-    CLI::App app("Puts other libraries before the hard cases, and raywise, and prints how many each passes.\n"
-                 "A benchmark: what a library fails is a result. Exit code: 0 when the run came to its end,\n"
-                 "2 for a wrong command line or case file, or a library that does not start.");
+    CLI::App app(
+        "Puts other libraries before the hard cases, and raywise, and prints how many each passes.\n"
+        "A benchmark: what a library fails is a result. Exit code: 0 when the run came to its end,\n"
+        "2 for a wrong command line or case file, or a library that does not start.");
     app.name("contract_peers");
     app.get_formatter()->column_width(28);
     app.add_option("--cases", options.cases, "folder of case files (default: the repository's)")->type_name("FOLDER");

@@ -119,8 +119,7 @@ public:
         collecting.context.filter = collect;
         collecting.answers = &answers;
         rtcIntersect1(scene_.get(), &collecting.context, &query);
-        std::stable_sort(answers.begin(), answers.end(),
-                         [](const Answer& a, const Answer& b) { return a.t < b.t; });
+        std::stable_sort(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) { return a.t < b.t; });
     }
 
     void closest_batch(const std::vector<Ray>&, std::vector<Answer>&) override {
@@ -131,12 +130,11 @@ private:
     void add(RTCDevice device, const Mesh& mesh, unsigned int id) {
         if (mesh.triangles.empty()) return; // Embree makes no buffer of no elements
         const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-        auto* vertices = static_cast<float*>(
-            rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                    mesh.vertices.size()));
-        auto* corners = static_cast<unsigned int*>(
-            rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    3 * sizeof(unsigned int), mesh.triangles.size()));
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+        auto* corners = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
+                                                                           RTC_FORMAT_UINT3, 3 * sizeof(unsigned int),
+                                                                           mesh.triangles.size()));
         check(device, "copying a mesh");
         for (const Vec3& vertex : mesh.vertices)
             for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(at(vertex, axis));

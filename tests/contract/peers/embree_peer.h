@@ -8,7 +8,10 @@
 
 namespace raywise::contract {
 
-enum class EmbreeFlags { plain, robust };
+enum class EmbreeFlags {
+    plain,
+    robust
+};
 
 std::unique_ptr<Library> make_embree(EmbreeFlags flags);
 std::string embree_version();

@@ -12,6 +12,7 @@ namespace raywise::contract {
 struct Peer {
     const char* key;  // on the command line
     const char* note; // how it is asked, for the report
+    const char* why;  // what lies behind most of its failures, found by looking into them
     // Both empty for those of Python, which python_peers.py knows by the same key.
     std::unique_ptr<Library> (*make)();
     std::string (*version)();

@@ -41,7 +41,8 @@ private:
     [[noreturn]] static void raise(Reply kind, const std::string& text) {
         if (kind == Reply::inexpressible) throw Inexpressible(text);
         const std::size_t end = text.find('\n');
-        if (kind == Reply::refusal && end != std::string::npos) throw Refusal(text.substr(0, end), text.substr(end + 1));
+        if (kind == Reply::refusal && end != std::string::npos)
+            throw Refusal(text.substr(0, end), text.substr(end + 1));
         throw PeerFailure("error: " + text);
     }
 

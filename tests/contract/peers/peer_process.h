@@ -13,8 +13,8 @@
 namespace raywise::contract {
 
 struct ProcessLimits {
-    std::chrono::milliseconds patience;  // for one answer
-    std::uint64_t most_memory = 0;       // bytes of address space; 0: no limit
+    std::chrono::milliseconds patience; // for one answer
+    std::uint64_t most_memory = 0;      // bytes of address space; 0: no limit
 };
 
 // The library reported an error where it should have answered.

@@ -26,9 +26,15 @@ Tally tally_of(const LibraryResult& result, const std::string& family = "") {
     for (const CaseResult& one : result.cases) {
         if (!family.empty() && one.family != family) continue;
         switch (one.outcome) {
-        case Outcome::passed: ++tally.passed; break;
-        case Outcome::failed: ++tally.failed; break;
-        case Outcome::skipped: ++tally.not_applicable; break;
+            case Outcome::passed:
+                ++tally.passed;
+                break;
+            case Outcome::failed:
+                ++tally.failed;
+                break;
+            case Outcome::skipped:
+                ++tally.not_applicable;
+                break;
         }
         if (one.outcome == Outcome::failed && !one.convention.empty()) ++tally.failed_conventions;
     }
@@ -65,8 +71,8 @@ std::string pass_table(const std::vector<Family>& families, const std::vector<En
         text += row_of(family.name, entrants,
                        [&](const LibraryResult& result) { return tally_of(result, family.name).text(); });
     }
-    text += row_of("**all**", entrants,
-                   [](const LibraryResult& result) { return "**" + tally_of(result).text() + "**"; });
+    text +=
+        row_of("**all**", entrants, [](const LibraryResult& result) { return "**" + tally_of(result).text() + "**"; });
     text += row_of("by closest hit alone", entrants, [](const LibraryResult& result) {
         const Tally tally = tally_of(result);
         return std::to_string(result.passed_by_closest()) + "/" + std::to_string(tally.passed + tally.failed);
@@ -81,6 +87,7 @@ std::string pass_table(const std::vector<Family>& families, const std::vector<En
 std::string failures_of(const Entrant& entrant) {
     std::string text = "\n### " + entrant.result.library + "\n\n";
     if (tally_of(entrant.result).failed == 0) return text + "None.\n";
+    if (!entrant.why.empty()) text += entrant.why + "\n\n";
     text += line_of({"case", "rays", "the first that went wrong"}) + line_of({"---", "---:", "---"});
     for (const CaseResult& one : entrant.result.cases) {
         if (one.outcome != Outcome::failed) continue;
@@ -106,22 +113,27 @@ constexpr const char* how_to_read = R"(
 
 A cell is *cases passed / cases that can be put to the library*. A case is passed when every ray of it is answered as its file
 says, by the closest hit, by any hit and by all hits where the library has calls for them, and when these do not contradict
-each other. The cases are the files of `tests/contract/cases`, with sources and reasons; `README.md` there describes them.
+each other. The cases are the files of `tests/contract/cases`, with sources and reasons; the `README.md` there describes them.
 
 - **Not applicable** is what a library has no words for: an interval where it takes none, all hits, several meshes in one
-  scene, a mesh that is to be refused by a library that checks none. It counts neither way.
+  scene, the refusal of a mesh by a library that checks none. It counts neither way.
+- **Hit or miss** is decided by exact arithmetic, for all alike: it is what the cases are about.
 - **Precision.** Coordinates are handed over in the precision the library works in. A case that needs float64 is put to float32
-  libraries all the same: what they then get wrong is what their users get. t may be off by 10^-5 (float32), 10^-9 (float64) or
+  libraries all the same: what they then get wrong is what their users get. t may be off by 1e-5 (float32), 1e-9 (float64) or
   2^-37 (raywise, as its header promises) of the distance from the ray's origin to the scene's farthest point.
-- **Ties.** Where several triangles are hit at the same t, peers may name any of them; raywise has to name the lowest.
+- **Which triangle.** raywise has to name the one that exact arithmetic finds, and the lowest id of several at the same t. Peers
+  may name any triangle at that t, and one that the ray passes by within their tolerance of t.
+- **All hits.** raywise counts crossings: a surface is one hit where the ray passes through an edge, so that the number of hits
+  tells inside from outside. From peers, which promise less, a list of every triangle touched is as good, with or without those met edge-on. What
+  fails is a list that leaves some of them out or holds others. *By closest hit alone* disregards what any hit and all hits say.
 - **Crashes.** Each library runs in a process of its own. A crash, an exception or no answer within the time limit fails the case
   and no other.
-- **Conventions** (†) are cases in which a library may see the matter differently for good reasons, such as whether a ray in the
-  plane of a triangle hits it. They are listed at the end, and counted in a row of their own so that they can be subtracted.
+- **Conventions** (†) are cases in which a library may see the matter differently for good reasons. They are listed at the end,
+  and counted in a row of their own so that they can be subtracted.
 - **raywise** is one column for all its structures and for views: each of them has to pass.
 
-Embree, CGAL, trimesh and embreex are made for speed or for other tasks than these; a case failed here need not matter to
-their users. The table says which answers one can rely on, nothing else.
+The peers are made for speed or for other tasks than these; a case failed here need not matter to their users. The table says
+which answers one can rely on, nothing else.
 )";
 
 } // namespace
@@ -134,8 +146,11 @@ LibraryResult together(const std::string& name, const std::vector<LibraryResult>
         for (std::size_t i = 0; i < form.cases.size(); ++i) {
             const CaseResult& one = form.cases[i];
             CaseResult& sum = all.cases[i];
+            sum.failed_questions.insert(one.failed_questions.begin(), one.failed_questions.end());
             if (one.outcome == Outcome::failed && (sum.outcome != Outcome::failed || &form == &forms.front())) {
+                const std::set<std::string> failed_questions = sum.failed_questions;
                 sum = one;
+                sum.failed_questions = failed_questions;
                 sum.reason = form.library + ": " + one.reason;
             } else if (one.outcome == Outcome::passed && sum.outcome == Outcome::skipped) {
                 sum = one;

@@ -14,6 +14,7 @@ namespace raywise::contract {
 struct Entrant {
     std::string version;
     std::string note; // how it is asked
+    std::string why;  // what lies behind most of its failures; may be empty
     LibraryResult result;
 };
 

@@ -15,7 +15,9 @@ using namespace std::chrono_literals;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // patience: long enough for a busy machine, but for the one test that waits for it to run out.
-PeerProcess toy(std::chrono::milliseconds patience = 60s) { return {{RAYWISE_TOY_SERVER}, {patience}, "toy_server.log"}; }
+PeerProcess toy(std::chrono::milliseconds patience = 60s) {
+    return {{RAYWISE_TOY_SERVER}, {patience}, "toy_server.log"};
+}
 
 std::vector<Mesh> one_mesh() {
     Mesh mesh;
@@ -104,7 +106,8 @@ TEST(PeerProcess, ACrashIsNamedAndTheNextSceneWorks) {
     PeerProcess peer = toy();
     const auto meshes = one_mesh();
     const auto scene = peer.build(meshes);
-    EXPECT_EQ(failure_of(*scene, ray_from(3.0)), std::string("crashed: ") + strsignal(SIGABRT) + " (Assertion `true' failed.)");
+    EXPECT_EQ(failure_of(*scene, ray_from(3.0)),
+              std::string("crashed: ") + strsignal(SIGABRT) + " (Assertion `true' failed.)");
     EXPECT_THROW(scene->closest(ray_from(0.0)), ChildLost) << "the old scene is gone";
     EXPECT_TRUE(peer.build(meshes)->closest(ray_from(0.0)).hit);
 }

@@ -27,8 +27,20 @@
 
 namespace raywise::contract {
 
-enum class Request : std::uint32_t { describe, build, closest, any, all, closest_batch };
-enum class Reply : std::uint32_t { ok, refusal, inexpressible, failure };
+enum class Request : std::uint32_t {
+    describe,
+    build,
+    closest,
+    any,
+    all,
+    closest_batch
+};
+enum class Reply : std::uint32_t {
+    ok,
+    refusal,
+    inexpressible,
+    failure
+};
 
 struct MessageHead {
     std::uint32_t kind;

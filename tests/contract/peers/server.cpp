@@ -62,18 +62,29 @@ public:
     void answer(Request request, Unpacker& body, Packer& reply) {
         std::vector<Answer> answers;
         switch (request) {
-        case Request::describe: reply.put_text(description(library_, version_)); return;
-        case Request::build: build(body); return;
-        case Request::closest: answers = {scene().closest(body.ray())}; break;
-        case Request::any: reply.put(std::uint32_t{scene().any(body.ray())}); return;
-        case Request::all: scene().all(body.ray(), answers); break;
-        case Request::closest_batch: {
-            std::vector<Ray> rays;
-            while (!body.done()) rays.push_back(body.ray());
-            scene().closest_batch(rays, answers);
-            break;
-        }
-        default: throw std::runtime_error("an unknown request");
+            case Request::describe:
+                reply.put_text(description(library_, version_));
+                return;
+            case Request::build:
+                build(body);
+                return;
+            case Request::closest:
+                answers = {scene().closest(body.ray())};
+                break;
+            case Request::any:
+                reply.put(std::uint32_t{scene().any(body.ray())});
+                return;
+            case Request::all:
+                scene().all(body.ray(), answers);
+                break;
+            case Request::closest_batch: {
+                std::vector<Ray> rays;
+                while (!body.done()) rays.push_back(body.ray());
+                scene().closest_batch(rays, answers);
+                break;
+            }
+            default:
+                throw std::runtime_error("an unknown request");
         }
         for (const Answer& one : answers) reply.put(one);
     }
