@@ -16,42 +16,95 @@ Point exact(const Vec3& v) { return {oracle::exact(v.x), oracle::exact(v.y), ora
 Point minus(const Point& a, const Point& b) {
     return {Fraction(a[0] - b[0]), Fraction(a[1] - b[1]), Fraction(a[2] - b[2])};
 }
-Fraction determinant(const Point& a, const Point& b, const Point& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+Point cross(const Point& a, const Point& b) {
+    return {Fraction(a[1] * b[2] - a[2] * b[1]), Fraction(a[2] * b[0] - a[0] * b[2]),
+            Fraction(a[0] * b[1] - a[1] * b[0])};
+}
+Fraction dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// A vector of which only the direction matters, so that integers will do: they need no common divisors.
+using Direction = std::array<oracle::Integer, 3>;
+
+Direction direction_of(const Point& v) {
+    oracle::Integer common = 1;
+    for (const Fraction& x : v) common = lcm(common, denominator(x));
+    Direction result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = numerator(v[i]) * (common / denominator(v[i]));
+    return result;
+}
+Direction opposite(Direction v) {
+    for (oracle::Integer& x : v) x = -x;
+    return v;
 }
 
-// Points inside the first triangle to move towards, as weights of its corners. None is special, so that the moved ray is
-// on no edge of another triangle either.
-const std::array<std::array<Fraction, 2>, 3> insides = {{{Fraction(331, 1000), Fraction(337, 1000)},
-                                                         {Fraction(719, 1000), Fraction(137, 1000)},
-                                                         {Fraction(127, 1000), Fraction(701, 1000)}}};
+// Which way a ray is moved aside by next to nothing: along the first vector, by far less along the second, and so on.
+using Movement = std::vector<Direction>;
 
-struct Touch {
-    oracle::ExactHit hit;
-    const Vec3* corners;
+// A triangle touched at its border, as far as moving the ray concerns it.
+class Touch {
+public:
+    Touch(const oracle::ExactHit& hit, const Vec3* corners, const Point& direction) {
+        const Fraction weights[3] = {Fraction(1 - hit.u - hit.v), hit.u, hit.v};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (weights[i] != 0) continue;
+            // The weight of corner i falls to zero along the opposite edge, and grows towards the corner.
+            const Point begin = exact(corners[(i + 1) % 3]);
+            const Point edge = minus(exact(corners[(i + 2) % 3]), begin);
+            const Point across = cross(direction, edge);
+            const Direction growth = direction_of(across);
+            edges_.push_back({direction_of(edge), growth});
+            growths_.push_back(dot(across, minus(exact(corners[i]), begin)) < 0 ? opposite(growth) : growth);
+        }
+    }
 
-    bool on_border() const { return hit.u == 0 || hit.v == 0 || hit.u + hit.v == 1; }
+    struct Edge {
+        Direction along;
+        Direction across;
+    };
+    // Those the ray passes through.
+    const std::vector<Edge>& edges() const { return edges_; }
+
+    bool is_hit_when_moved(const Movement& movement) const {
+        return std::all_of(growths_.begin(), growths_.end(), [&](const Direction& growth) {
+            for (const Direction& step : movement) {
+                const oracle::Integer change = growth[0] * step[0] + growth[1] * step[1] + growth[2] * step[2];
+                const int sign = change.sign();
+                if (sign != 0) return sign > 0;
+            }
+            return false;
+        });
+    }
+
+private:
+    std::vector<Edge> edges_;
+    std::vector<Direction> growths_; // of the weights that are zero, as the ray is moved
 };
 
-// Whether the ray still hits when it is moved sideways by next to nothing.
-// -1: no, 1: yes, 0: it then runs along the border.
-int hit_when_moved(const Touch& touch, const Point& direction, const Point& movement) {
-    const Point a = exact(touch.corners[0]);
-    const Point e1 = minus(exact(touch.corners[1]), a);
-    const Point e2 = minus(exact(touch.corners[2]), a);
-    // The movement as a part along the ray and a part in the triangle's plane, in its edges: how its weights change.
-    const Fraction volume = determinant(direction, e1, e2);
-    const Fraction du = determinant(direction, movement, e2) / volume;
-    const Fraction dv = determinant(direction, e1, movement) / volume;
-    const std::array<Fraction, 3> weights = {Fraction(1 - touch.hit.u - touch.hit.v), touch.hit.u, touch.hit.v};
-    const std::array<Fraction, 3> changes = {Fraction(-du - dv), du, dv};
-    int result = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (weights[i] != 0) continue;
-        if (changes[i] < 0) return -1;
-        if (changes[i] == 0) result = 0;
+// Towards the middle of the first triangle; along the axes when that is along an edge of another.
+Movement towards_the_inside(const oracle::ExactHit& hit, const Vec3* corners) {
+    const Point a = exact(corners[0]);
+    const Point e1 = minus(exact(corners[1]), a);
+    const Point e2 = minus(exact(corners[2]), a);
+    const Fraction third(1, 3);
+    Point movement;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        movement[axis] = (third - hit.u) * e1[axis] + (third - hit.v) * e2[axis];
+    return {direction_of(movement), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+}
+
+// Both sides of every edge that the ray passes through, both ways along it: whatever there is to find by moving the ray is found
+// by one of these.
+std::vector<Movement> all_movements(const std::vector<Touch>& touches) {
+    std::vector<Movement> movements;
+    for (const Touch& touch : touches) {
+        for (const auto& [along, across] : touch.edges()) {
+            for (const Direction& first : {along, opposite(along)}) {
+                movements.push_back({first, across});
+                movements.push_back({first, opposite(across)});
+            }
+        }
     }
-    return result;
+    return movements;
 }
 
 bool is_extreme(double x) { return x != 0.0 && !(std::fabs(x) > 1e-100 && std::fabs(x) < 1e100); }
@@ -114,9 +167,8 @@ bool ExactScene::is_edge_on(const Ray& ray, const PrimitiveId& id) const {
     const Triangle* triangle = find(id);
     if (triangle == nullptr || !is_finite(ray.origin) || !is_finite(ray.direction)) return false;
     const Point a = exact(triangle->corners[0]);
-    const Point e1 = minus(exact(triangle->corners[1]), a);
-    const Point e2 = minus(exact(triangle->corners[2]), a);
-    return determinant(exact(ray.direction), e1, e2) == 0 && determinant(minus(exact(ray.origin), a), e1, e2) == 0;
+    const Point normal = cross(minus(exact(triangle->corners[1]), a), minus(exact(triangle->corners[2]), a));
+    return dot(exact(ray.direction), normal) == 0 && dot(minus(exact(ray.origin), a), normal) == 0;
 }
 
 // A slab test that leaves a thousand times more room than its rounding needs, so that the judge is asked about everything the ray
@@ -161,35 +213,27 @@ ExactAnswers ExactScene::answers(const Ray& ray) const {
         const bool after = std::isinf(ray.tmin) ? ray.tmin < 0 : t >= oracle::exact(ray.tmin);
         return after && (std::isinf(ray.tmax) ? ray.tmax > 0 : t <= oracle::exact(ray.tmax));
     };
+    const Point direction = exact(ray.direction);
     std::vector<Touch> touches;
-    for (oracle::ExactHit& hit : oracle::Judge(sifted).line_hits(ray)) {
+    Movement inside;
+    for (const oracle::ExactHit& hit : oracle::Judge(sifted).line_hits(ray)) {
         if (!within(hit.t)) continue;
         const Triangle& triangle = triangles_[kept[hit.primitive]];
+        if (touches.empty()) inside = towards_the_inside(hit, triangle.corners);
         result.touched.push_back({hit.t, triangle.id, true});
-        touches.push_back({std::move(hit), triangle.corners.data()});
+        touches.emplace_back(hit, triangle.corners, direction);
     }
-    if (std::none_of(touches.begin(), touches.end(), [](const Touch& touch) { return touch.on_border(); }))
+    if (std::all_of(touches.begin(), touches.end(), [](const Touch& touch) { return touch.edges().empty(); }))
         return result;
 
-    const Point direction = exact(ray.direction);
-    const Vec3* first = touches.front().corners;
-    const Point a = exact(first[0]);
-    const Point e1 = minus(exact(first[1]), a);
-    const Point e2 = minus(exact(first[2]), a);
-    std::size_t counts[insides.size()] = {};
-    for (std::size_t i = insides.size(); i-- > 0;) { // the first is what stays
-        const Fraction u = insides[i][0] - touches.front().hit.u;
-        const Fraction v = insides[i][1] - touches.front().hit.v;
-        Point movement;
-        for (std::size_t axis = 0; axis < 3; ++axis) movement[axis] = u * e1[axis] + v * e2[axis];
-        for (std::size_t k = 0; k < touches.size(); ++k) {
-            const int moved = hit_when_moved(touches[k], direction, movement);
-            if (moved == 0) result.count_certain = false;
-            result.touched[k].counted = moved > 0;
-        }
-        counts[i] = result.count();
+    for (std::size_t i = 0; i < touches.size(); ++i) result.touched[i].counted = touches[i].is_hit_when_moved(inside);
+    const auto expected = static_cast<std::ptrdiff_t>(result.count());
+    for (const Movement& movement : all_movements(touches)) {
+        if (!touches.front().is_hit_when_moved(movement)) continue; // not towards its inside
+        const auto count = std::count_if(touches.begin(), touches.end(),
+                                         [&](const Touch& touch) { return touch.is_hit_when_moved(movement); });
+        if (count != expected) result.count_certain = false;
     }
-    if (counts[0] != counts[1] || counts[0] != counts[2]) result.count_certain = false;
     return result;
 }
 

@@ -6,7 +6,6 @@
 #include "contract/library.h"
 #include "oracle/judge.h"
 
-#include <array>
 #include <vector>
 
 namespace raywise::contract {
@@ -24,8 +23,8 @@ struct ExactAnswers {
     // to a triangle; one without area, or edge-on to the ray, is never touched. So the first is the closest hit.
     std::vector<ExactAnswer> touched;
     // The hits that are listed and counted: those of the ray moved sideways by next to nothing, towards the inside of the
-    // first triangle touched. So a surface is crossed once even where the ray passes through an edge. False when
-    // it depends on where inside; parity never does on a closed mesh.
+    // first triangle touched. So a surface is crossed once even where the ray passes through an edge. False when their
+    // number depends on where inside (counted then means towards its middle); parity never does on a closed mesh.
     bool count_certain = true;
 
     std::size_t count() const;
@@ -49,7 +48,7 @@ public:
 
 private:
     struct Triangle {
-        std::array<Vec3, 3> corners;
+        Vec3 corners[3];
         Vec3 lower;
         Vec3 upper;
         PrimitiveId id;

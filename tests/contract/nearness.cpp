@@ -15,7 +15,7 @@ double distance_to_edge(const Vec3& point, const Vec3& a, const Vec3& b) {
 
 } // namespace
 
-double distance(const Vec3& point, const std::array<Vec3, 3>& corners) {
+double distance(const Vec3& point, const Vec3 (&corners)[3]) {
     const auto& [a, b, c] = corners;
     const Vec3 cross = glm::cross(b - a, c - a);
     const double length = glm::length(cross);

@@ -3,11 +3,9 @@
 
 #include "base/vec.h"
 
-#include <array>
-
 namespace raywise::contract {
 
 // Rounded. A triangle without area is infinitely far away: it is never hit.
-double distance(const Vec3& point, const std::array<Vec3, 3>& corners);
+double distance(const Vec3& point, const Vec3 (&corners)[3]);
 
 } // namespace raywise::contract

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace raywise::contract {
 namespace {
 
-const std::array<Vec3, 3> triangle = {Vec3(0.0), Vec3(4.0, 0.0, 0.0), Vec3(0.0, 4.0, 0.0)};
+const Vec3 triangle[3] = {Vec3(0.0), Vec3(4.0, 0.0, 0.0), Vec3(0.0, 4.0, 0.0)};
 
 TEST(Nearness, OfPointsAboveTheInside) {
     EXPECT_DOUBLE_EQ(distance({1.0, 1.0, 0.0}, triangle), 0.0);
@@ -21,7 +23,8 @@ TEST(Nearness, OfPointsBesideEdgesAndCorners) {
 }
 
 TEST(Nearness, ATriangleWithoutAreaIsNearNothing) {
-    EXPECT_TRUE(std::isinf(distance({1.0, 1.0, 1.0}, {Vec3(0.0), Vec3(1.0), Vec3(2.0)})));
+    const Vec3 flat[3] = {Vec3(0.0), Vec3(1.0), Vec3(2.0)};
+    EXPECT_TRUE(std::isinf(distance({1.0, 1.0, 1.0}, flat)));
 }
 
 } // namespace
