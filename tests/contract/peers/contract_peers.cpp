@@ -23,8 +23,8 @@
 namespace raywise::contract {
 namespace {
 
-// A query of a sane library takes milliseconds at most; building the largest mesh in Python takes seconds.
-constexpr unsigned default_seconds = 20;
+// A query of a sane library takes milliseconds at most; importing and building in Python takes seconds, on a busy machine many.
+constexpr unsigned default_seconds = 60;
 // What loops over nonsense must not take the machine's memory with it.
 constexpr std::uint64_t most_memory = std::uint64_t{8} << 30;
 
@@ -158,7 +158,7 @@ int run(int argc, char** argv) {
     app.add_option("--peer", options.peers, "only this one beside raywise; may be repeated")->type_name("NAME");
     app.add_option("--python", options.python, "a Python that has trimesh and embreex")->type_name("PROGRAM");
     app.add_option("--most-sweep-rays", options.most_sweep_rays, "so many rays of each sweep at most")->type_name("N");
-    app.add_option("--seconds", options.seconds, "how long an answer may take (default: 20)")
+    app.add_option("--seconds", options.seconds, "how long an answer may take (default: 60)")
         ->type_name("N")
         ->check(CLI::Range(1u, 3600u));
     app.add_option("--log", options.log, "what the libraries print (default: contract_peers.log)")->type_name("FILE");

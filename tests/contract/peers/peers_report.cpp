@@ -124,8 +124,11 @@ each other. The cases are the files of `tests/contract/cases`, with sources and 
 - **Which triangle.** raywise has to name the one that exact arithmetic finds, and the lowest id of several at the same t. Peers
   may name any triangle at that t, and one that the ray passes by within their tolerance of t.
 - **All hits.** raywise counts crossings: a surface is one hit where the ray passes through an edge, so that the number of hits
-  tells inside from outside. From peers, which promise less, a list of every triangle touched is as good, with or without those met edge-on. What
-  fails is a list that leaves some of them out or holds others. *By closest hit alone* disregards what any hit and all hits say.
+  tells inside from outside. From peers, which promise less, a list of every triangle touched is as good, with or without those
+  met edge-on. What fails is a list that leaves some of them out or holds others. *By closest hit alone* disregards what any hit
+  and all hits say.
+- **Bad input.** A ray that nothing can be made of is a miss; a triangle with a bad vertex, where the case says that such are to be
+  skipped, is handed over as it is.
 - **Crashes.** Each library runs in a process of its own. A crash, an exception or no answer within the time limit fails the case
   and no other.
 - **Conventions** (†) are cases in which a library may see the matter differently for good reasons. They are listed at the end,
