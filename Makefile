@@ -11,14 +11,14 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK PEERS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS PEERS
 
 CALIBRATE_FLAGS ?=
 
 .PHONY: help
 help: ## list the goals
 	@echo "make GOAL, where GOAL is one of:"
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 .PHONY: setup
 setup: ## install all that any goal needs
@@ -48,9 +48,14 @@ test-asan: ## C and C++ tests with the address and undefined behaviour sanitizer
 	@tools/test.sh asan-ubsan
 
 .PHONY: test-tsan
-test-tsan: ## tests of threads with the thread sanitizer
+test-tsan: ## C and C++ tests with the thread sanitizer
 	@tools/setup.sh native
 	@tools/test.sh tsan
+
+.PHONY: isa-aarch64
+isa-aarch64: ## whether an AArch64 processor gives the same bits, in an emulator
+	@tools/setup.sh native isa-aarch64
+	@tools/isa-aarch64.sh
 
 .PHONY: coverage
 coverage: ## which lines the C and C++ tests run; pages in build/coverage/report
@@ -58,10 +63,14 @@ coverage: ## which lines the C and C++ tests run; pages in build/coverage/report
 	@tools/coverage.sh
 
 .PHONY: bench
-bench: ## build the benchmarks, into build/bench
+bench: ## build and run the benchmarks; reports in build/reports [QUICK=1]
 	@tools/setup.sh bench
-	cmake --preset bench
-	cmake --build --preset bench
+	@tools/bench.sh
+
+.PHONY: contract
+contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]
+	@tools/setup.sh native
+	@tools/contract.sh
 
 .PHONY: contract-peers
 contract-peers: ## the hard cases before other libraries [QUICK=1] [PEERS='embree cgal ...']
@@ -72,6 +81,13 @@ contract-peers: ## the hard cases before other libraries [QUICK=1] [PEERS='embre
 bindings: ## regenerate the Rust and Python declarations from the header
 	@tools/setup.sh bindings
 	build/venv/bin/python bindings/generate.py
+
+.PHONY: abi
+abi: ## keep the binary interface as the one of this release (CONTRIBUTING.md, Releases)
+	@tools/setup.sh native abi
+	cmake --preset dev
+	cmake --build --preset dev --target raywise
+	tools/abi.py write --library build/dev/capi/libraywise.so
 
 .PHONY: calibrate
 calibrate: build ## measure this machine [CALIBRATE_FLAGS=...]

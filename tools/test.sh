@@ -2,7 +2,7 @@
 # tools/test.sh          all tests: the dev preset under ctest (C, C++, examples, Rust and Python), then the
 #                        tests of threads under the thread sanitizer. Ends with the closing line of every
 #                        runner, so that nobody has to take ctest's word for the languages behind it.
-# tools/test.sh PRESET   configure, build and test one preset: asan-ubsan, tsan, coverage
+# tools/test.sh PRESET   configure, build and test one preset with all C and C++ tests: asan-ubsan, tsan, coverage
 #
 # TEST_FLAGS in the environment goes to ctest, e.g. TEST_FLAGS='-R grid'; JOBS is how many run at a time.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -27,14 +27,9 @@ configure() { # PRESET
     cmake --preset "$1"
 }
 
-# A preset that runs only some tests may have a target PRESET-tests that builds only those.
-build() { # PRESET
-    local -a target=()
-    if [[ $(ninja -C "build/$1" -t targets all) == *$'\n'"$1-tests: "* ]]; then
-        target=(--target "$1-tests")
-    fi
+build() { # PRESET [TARGET]
     step "Building preset $1"
-    cmake --build --preset "$1" "${target[@]}"
+    cmake --build --preset "$1" ${2:+--target "$2"}
 }
 
 # The thread sanitizer wants its shadow memory at fixed addresses and gives up where the kernel places
@@ -47,10 +42,11 @@ fixed_addresses() {
     fi
 }
 
-run_ctest() { # PRESET
-    local -a command=(ctest --preset "$1" -j "$JOBS" "${flags[@]}")
+run_ctest() { # PRESET [TEST PRESET]
+    local preset=${2:-$1}
+    local -a command=(ctest --preset "$preset" -j "$JOBS" "${flags[@]}")
     [[ $1 != tsan ]] || command=(fixed_addresses "${command[@]}")
-    step "Testing preset $1 (ctest)"
+    step "Testing preset $preset (ctest)"
     "${command[@]}" </dev/null 2>&1 | tee "$(ctest_log "$1")"
 }
 
@@ -132,8 +128,8 @@ test_everything() {
     # A selection is somebody at work on one thing: no thread sanitizer for them; there is make test-tsan.
     if [[ ${#flags[@]} -eq 0 ]]; then
         configure tsan
-        build tsan
-        run_ctest tsan || failures+=("ctest, preset tsan")
+        build tsan tests-of-threads
+        run_ctest tsan tsan-threads || failures+=("ctest, preset tsan-threads")
     fi
 
     summary

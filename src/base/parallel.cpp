@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,9 +9,14 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
+
+#include <sched.h>
+#include <unistd.h>
 
 namespace raywise {
 namespace {
@@ -38,12 +42,36 @@ private:
     std::exception_ptr first_;
 };
 
+// oneTBB comes to life with the first arena. When memory is refused in the middle of that, it does not recover, and whatever
+// is asked of it next never returns. So it is tried once and left alone when it fails: loops then run on the caller's thread.
+// The arena stays, or oneTBB would be gone, and come to life again, with every thread of the host that used it.
+bool threads_are_there() {
+    static const bool there = [] {
+        try {
+            static tbb::task_arena* const stays = new tbb::task_arena;
+            stays->initialize();
+            return true;
+        } catch (const std::bad_alloc&) {
+            return false;
+        }
+    }();
+    return there;
+}
+
 } // namespace
 
 Parallel::Parallel(unsigned threads, Host host)
     : threads_(threads == 0 ? usable_threads() : std::min(threads, usable_threads())), host_(std::move(host)) {}
 
-unsigned Parallel::usable_threads() { return static_cast<unsigned>(std::max(1, tbb::info::default_concurrency())); }
+// oneTBB would tell the same, but its first answer takes memory, and when that is refused no later question returns.
+unsigned Parallel::usable_threads() {
+    static const unsigned count = [] {
+        cpu_set_t cpus;
+        if (sched_getaffinity(getpid(), sizeof cpus, &cpus) == 0) return static_cast<unsigned>(CPU_COUNT(&cpus));
+        return std::thread::hardware_concurrency(); // more processors than the set has room for
+    }();
+    return std::max(1u, count);
+}
 
 void Parallel::for_each(std::uint64_t count, const Task& task) const {
     if (count == 0) return;
@@ -70,13 +98,24 @@ void Parallel::for_each(std::uint64_t count, const Task& task) const {
         }
         return;
     }
-    if (threads_ == 1 || count == 1) {
+    if (threads_ == 1 || count == 1 || !threads_are_there()) {
         for (std::uint64_t i = 0; i < count; ++i) task(i);
         return;
     }
-    tbb::task_arena arena(static_cast<int>(threads_));
-    arena.execute(
-        [&] { tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) { exception.run([&] { task(i); }); }); });
+    std::atomic<std::uint64_t> next{0};
+    const auto work = [&] {
+        for (std::uint64_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) exception.run([&] { task(i); });
+    };
+    try {
+        tbb::task_arena arena(static_cast<int>(threads_));
+        arena.execute([&] {
+            tbb::parallel_for(std::uint64_t{0}, std::min<std::uint64_t>(threads_, count),
+                              [&](std::uint64_t) { work(); });
+        });
+    } catch (const std::exception&) {
+        // oneTBB got no memory or no thread; tasks throw nothing through it. The caller's thread does what is left.
+    }
+    work();
     exception.rethrow();
 }
 

@@ -25,7 +25,7 @@ public:
 
     unsigned threads() const { return threads_; }
 
-    // Threads this process may use: affinity and cgroup limits included.
+    // Threads this process may use: as many as processors its affinity names.
     static unsigned usable_threads();
 
 private:

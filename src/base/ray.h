@@ -60,8 +60,11 @@ public:
         tmin = from_caller(ray.tmin);
         // A hit so far away that its t overflows in the caller's unit cannot be reported.
         tmax = std::min(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
-        const Vec3 reach = glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin));
-        margin = 0x1p-34 * std::max(max_component(reach), 0x1p-900);
+        const double reach = max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)));
+        margin = 0x1p-34 * std::max(reach, 0x1p-900);
+        certain_edge =
+            reach > 0x1p-370 && reach < 0x1p400 ? 0x1p-43 * reach * reach : std::numeric_limits<double>::infinity();
+        axis_origin = {at(origin, x_axis), at(origin, y_axis), at(origin, major_axis)};
     }
 
     // A ray that can hit something at all: no NaN, finite origin and direction, direction not zero, interval not inverted.
@@ -86,6 +89,10 @@ public:
     int y_axis;
     double shear_x; // direction[x_axis] / direction[major_axis]
     double shear_y;
+    Vec3 axis_origin; // the origin's components in the order x_axis, y_axis, major_axis
+    // An edge value of the triangle test beyond this has the right sign, whatever the triangle: see geometry/triangle_test.h.
+    // Infinite where products of coordinates might leave the range of float64.
+    double certain_edge;
     SkipList skip; // what the ray does not see
 
 private:

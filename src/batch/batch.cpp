@@ -1,5 +1,6 @@
 #include "batch/batch.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstring>
@@ -109,19 +110,18 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
     const std::uint64_t invalid =
         for_each_ray(tracer, rays, parallel,
                      [&](std::uint64_t i, const Ray& ray, SkipList skip) { tracer.all(ray, found[i], skip); });
-    std::uint64_t total = 0;
-    for (std::uint64_t i = 0; i < rays.count; ++i) {
-        offsets[i] = total;
-        total += found[i].size();
+    std::vector<std::uint64_t> first(rays.count + 1, 0);
+    for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
+    if (first.back() <= capacity) {
+        parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
+            for (std::uint64_t i = begin; i < end; ++i) {
+                for (std::size_t k = 0; k < found[i].size(); ++k) hits.put(first[i] + k, found[i][k]);
+            }
+        });
     }
-    offsets[rays.count] = total;
-    needed = total;
-    if (total > capacity) return invalid;
-    parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
-        for (std::uint64_t i = begin; i < end; ++i) {
-            for (std::size_t k = 0; k < found[i].size(); ++k) hits.put(offsets[i] + k, found[i][k]);
-        }
-    });
+    // Last, so that an error before leaves the caller's offsets alone.
+    std::copy(first.begin(), first.end(), offsets);
+    needed = first.back();
     return invalid;
 }
 

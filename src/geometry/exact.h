@@ -1,4 +1,5 @@
-// What float64 cannot settle about a triangle, answered in integers of any length: nothing is rounded, whatever the exponents.
+// What float64 cannot settle about a triangle, answered without any rounding, whatever the exponents: in sums of doubles where those
+// are exact, in integers elsewhere.
 #pragma once
 
 #include "base/vec.h"
@@ -14,7 +15,7 @@ struct Weights {
 };
 
 // Whether the line meets the triangle, edges and corners included, and is not in its plane. direction: of a PreparedRay.
-// The weights are exact to a few units in the last place and only set when it does.
+// The weights are then exact to a few units in the last place; otherwise they mean nothing.
 bool exact_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c,
                    Weights& weights);
 

@@ -48,24 +48,9 @@ double StridedArray::number(std::uint64_t element, int component) const {
     return scalar == Scalar::float32 ? static_cast<double>(load<float>(address)) : load<double>(address);
 }
 
-std::uint64_t StridedArray::index(std::uint64_t element, int component) const {
-    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
-    return scalar == Scalar::uint32 ? load<std::uint32_t>(address) : load<std::uint64_t>(address);
-}
-
 TriangleMesh::TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid) : arrays_(arrays) {
     check(skip_invalid);
     if (copy) make_copy();
-}
-
-Corners TriangleMesh::corners(std::uint32_t triangle) const {
-    if (arrays_.indices.data == nullptr) {
-        const std::uint64_t first = std::uint64_t{3} * triangle;
-        return {arrays_.vertices.vec3(first), arrays_.vertices.vec3(first + 1), arrays_.vertices.vec3(first + 2)};
-    }
-    return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)),
-            arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
-            arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
 }
 
 void TriangleMesh::check(bool skip_invalid) {

@@ -37,7 +37,19 @@ struct StridedArray {
     Vec3 vec3(std::uint64_t element) const;                              // float32 or float64
 };
 
-// Written for speed: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.
+// Written for speed, and inline: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.
+inline std::uint64_t StridedArray::index(std::uint64_t element, int component) const {
+    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    if (scalar == Scalar::uint32) {
+        std::uint32_t index;
+        std::memcpy(&index, address, sizeof index);
+        return index;
+    }
+    std::uint64_t index;
+    std::memcpy(&index, address, sizeof index);
+    return index;
+}
+
 inline Vec3 StridedArray::vec3(std::uint64_t element) const {
     const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
     if (scalar == Scalar::float32) {
@@ -72,7 +84,15 @@ public:
     TriangleMesh& operator=(const TriangleMesh&) = delete;
 
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(arrays_.triangle_count); }
-    Corners corners(std::uint32_t triangle) const;
+    Corners corners(std::uint32_t triangle) const {
+        if (arrays_.indices.data == nullptr) {
+            const std::uint64_t first = std::uint64_t{3} * triangle;
+            return {arrays_.vertices.vec3(first), arrays_.vertices.vec3(first + 1), arrays_.vertices.vec3(first + 2)};
+        }
+        return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)),
+                arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
+                arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
+    }
 
     // False for triangles with an invalid vertex or index; they have no corners.
     bool is_valid(std::uint32_t triangle) const { return invalid_.empty() || !invalid_[triangle]; }

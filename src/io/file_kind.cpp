@@ -1,8 +1,8 @@
 #include "io/file_kind.h"
 
 #include "base/error.h"
+#include "base/files.h"
 
-#include <fstream>
 #include <system_error>
 
 namespace raywise::io {
@@ -27,15 +27,14 @@ std::string read_file(const std::filesystem::path& path) {
     if (error) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be looked at: " + error.message());
     // Opening a pipe could wait for ever.
     if (!fs::is_regular_file(status)) throw Error(Status::ERROR_FILE_UNREADABLE, "is no plain file");
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be opened");
-
     std::string bytes;
-    const std::uintmax_t size = fs::file_size(path, error);
-    bytes.resize(error ? 0 : size);
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (file.bad() || static_cast<std::uintmax_t>(file.gcount()) != bytes.size()) {
-        throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be read to its end");
+    switch (read_whole(path, bytes)) {
+        case ReadResult::complete:
+            break;
+        case ReadResult::not_opened:
+            throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be opened");
+        case ReadResult::broken_off:
+            throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be read to its end");
     }
     return bytes;
 }

@@ -1,6 +1,7 @@
 #include "io/openmesh_reader.h"
 
 #include "base/error.h"
+#include "io/allocation_watch.h"
 
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
@@ -9,8 +10,10 @@
 #include <OpenMesh/Core/IO/reader/PLYReader.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
+#include <cerrno>
 #include <locale>
 #include <mutex>
+#include <new>
 #include <sstream>
 
 namespace raywise::io {
@@ -129,7 +132,8 @@ bool run(FileKind kind, const std::filesystem::path& path, std::istream& stream,
             return IO::IOManager().read(stream, "ply", importer, options);
         case FileKind::off:
             // This reader learns from the file's first line what each vertex has, and a stream does not make it look.
-            IO::OFFReader().can_u_read(path.string());
+            errno = 0;
+            if (!IO::OFFReader().can_u_read(path.string()) && errno == ENOMEM) throw std::bad_alloc();
             return IO::IOManager().read(stream, "off", importer, options);
         case FileKind::stl:
             break;
@@ -147,7 +151,10 @@ RawMesh read_with_openmesh(FileKind kind, const std::filesystem::path& path, con
     RawMesh mesh;
     Importer importer(mesh);
     std::istringstream stream(text, std::ios::in | std::ios::binary);
-    if (!run(kind, path, stream, importer)) throw Error(Status::ERROR_FILE_FORMAT, "OpenMesh cannot read the file");
+    const AllocationWatch watch;
+    const bool good = run(kind, path, stream, importer);
+    watch.require_none_refused();
+    if (!good) throw Error(Status::ERROR_FILE_FORMAT, "OpenMesh cannot read the file");
     return mesh;
 }
 

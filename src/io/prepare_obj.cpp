@@ -93,7 +93,7 @@ private:
     // vertex[/[texture][/[normal]]]
     std::uint32_t corner(std::string_view word) {
         const std::string_view number = word.substr(0, word.find('/'));
-        const auto index = integer_of<std::int64_t>(number);
+        const auto index = number_of<std::int64_t>(number);
         if (!index || word.find_first_not_of("0123456789/+-") != std::string_view::npos ||
             std::count(word.begin(), word.end(), '/') > 2) {
             throw Error(Status::ERROR_FILE_FORMAT, "face " + std::to_string(expected_.faces) + " (line " +

@@ -63,7 +63,7 @@ public:
         expected_.vertices = count(take_word(counts), "vertices");
         expected_.faces = count(take_word(counts), "faces");
         const std::string_view edges = take_word(counts);
-        if (!edges.empty() && !integer_of<std::int64_t>(edges)) {
+        if (!edges.empty() && !number_of<std::int64_t>(edges)) {
             throw Error(Status::ERROR_FILE_FORMAT,
                         "line " + std::to_string(line_) + ": three counts have to follow OFF");
         }
@@ -107,7 +107,7 @@ private:
     }
 
     std::uint64_t count(std::string_view word, const char* elements) {
-        const auto value = integer_of<std::uint64_t>(word);
+        const auto value = number_of<std::uint64_t>(word);
         if (!value) throw Error(Status::ERROR_FILE_FORMAT, std::string("the number of ") + elements + " is missing");
         if (*value > most_elements) fail_too_many(elements);
         return *value;
@@ -124,12 +124,12 @@ private:
     void face(std::uint64_t number) {
         std::string_view words =
             row("face " + std::to_string(number) + " of " + std::to_string(expected_.faces) + " is missing");
-        const auto corners = integer_of<std::uint64_t>(take_word(words));
+        const auto corners = number_of<std::uint64_t>(take_word(words));
         if (!corners) fail_face(number, "the number of corners is missing");
         if (*corners < 3) fail_bad_polygon(number, *corners);
         for (std::uint64_t i = 0; i < *corners; ++i) {
             const std::string_view word = take_word(words);
-            const auto index = integer_of<std::int64_t>(word);
+            const auto index = number_of<std::int64_t>(word);
             if (!index)
                 fail_face(number, word.empty() ? "it has too few corners"
                                                : "\"" + std::string(word.substr(0, 40)) + "\" is no index");

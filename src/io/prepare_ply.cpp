@@ -109,7 +109,7 @@ Header header_of(std::string_view text) {
         } else if (keyword == "element") {
             Element element;
             element.name = take_word(words);
-            const auto count = integer_of<std::uint64_t>(take_word(words));
+            const auto count = number_of<std::uint64_t>(take_word(words));
             if (!count)
                 fail("the header does not say how many of element " + element.name.substr(0, 40) + " there are");
             element.count = *count;
@@ -146,7 +146,7 @@ public:
     std::int64_t take_integer(const Type& type, const char* element, std::uint64_t number_of_element) {
         const std::string_view value = take(type);
         if (encoding_ == Encoding::ascii) {
-            const auto number = integer_of<std::int64_t>(value);
+            const auto number = number_of<std::int64_t>(value);
             if (!number)
                 fail(std::string(element) + " " + std::to_string(number_of_element) + ": \"" +
                      std::string(value.substr(0, 40)) + "\" is no integer");

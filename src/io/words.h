@@ -1,7 +1,8 @@
-// Lines, words and numbers of text files, whatever the locale.
+// Coordinates in text files.
 #pragma once
 
 #include "base/error.h"
+#include "base/words.h"
 
 #include <charconv>
 #include <cmath>
@@ -13,41 +14,6 @@
 #include <string_view>
 
 namespace raywise::io {
-
-// from_chars knows no plus sign.
-inline std::string_view without_plus(std::string_view word) {
-    return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
-}
-
-inline bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
-
-// Takes the next word off the front of `text`; empty at its end.
-inline std::string_view take_word(std::string_view& text) {
-    std::size_t begin = 0;
-    while (begin < text.size() && is_space(text[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < text.size() && !is_space(text[end])) ++end;
-    const std::string_view word = text.substr(begin, end - begin);
-    text.remove_prefix(end);
-    return word;
-}
-
-// Takes the next line off the front of `text`, without its end.
-inline std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    return line;
-}
-
-template <class Integer>
-std::optional<Integer> integer_of(std::string_view word) {
-    word = without_plus(word);
-    Integer value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return value;
-}
 
 // Checks one coordinate. `where` makes the beginning of a message, e.g. "vertex 7 (line 9)".
 template <class Where>

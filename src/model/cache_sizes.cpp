@@ -1,6 +1,8 @@
 #include "model/cache_sizes.h"
 
-#include <fstream>
+#include "base/files.h"
+#include "base/words.h"
+
 #include <string>
 
 #include <unistd.h>
@@ -9,10 +11,9 @@ namespace raywise {
 namespace {
 
 std::string first_word(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::string word;
-    file >> word;
-    return word;
+    const std::string content = content_or_nothing(path);
+    std::string_view words = content;
+    return std::string(take_word(words));
 }
 
 // "48K", "1024K", "32M"

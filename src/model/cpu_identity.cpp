@@ -1,10 +1,11 @@
 #include "model/cpu_identity.h"
 
+#include "base/files.h"
+#include "base/words.h"
+
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <istream>
 #include <map>
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -74,9 +75,10 @@ unsigned number(const std::string& text) { return static_cast<unsigned>(std::str
 
 } // namespace
 
-CpuIdentity arm_identity(std::istream& cpuinfo) {
+CpuIdentity arm_identity(std::string_view cpuinfo) {
     std::map<std::string, std::string> facts;
-    for (std::string line; std::getline(cpuinfo, line);) {
+    while (!cpuinfo.empty()) {
+        const std::string line(take_line(cpuinfo));
         const std::size_t colon = line.find(':');
         if (colon != std::string::npos) facts.emplace(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
     }
@@ -95,8 +97,7 @@ CpuIdentity cpu_identity() {
 #ifdef RW_HAS_CPUID
     return x86_identity();
 #else
-    std::ifstream cpuinfo("/proc/cpuinfo");
-    CpuIdentity cpu = arm_identity(cpuinfo);
+    CpuIdentity cpu = arm_identity(content_or_nothing("/proc/cpuinfo"));
 #if !defined(__aarch64__)
     cpu.instruction_set = "other";
 #endif

@@ -1,8 +1,8 @@
 // Who made the processor and which one it is.
 #pragma once
 
-#include <iosfwd>
 #include <string>
+#include <string_view>
 
 namespace raywise {
 
@@ -21,6 +21,6 @@ CpuIdentity cpu_identity();
 
 // The identity of an ARM processor from the text of /proc/cpuinfo: the first processor's implementer is the vendor, its
 // architecture the family, its part the model, 16 * variant + revision the stepping.
-CpuIdentity arm_identity(std::istream& cpuinfo);
+CpuIdentity arm_identity(std::string_view cpuinfo);
 
 } // namespace raywise

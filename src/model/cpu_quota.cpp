@@ -1,9 +1,11 @@
 #include "model/cpu_quota.h"
 
+#include "base/files.h"
+#include "base/words.h"
+
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <string>
+#include <string_view>
 
 namespace raywise {
 namespace {
@@ -12,24 +14,34 @@ void lower_to(std::optional<double>& limit, double value) {
     if (value > 0.0) limit = limit ? std::min(*limit, value) : value;
 }
 
-// Version 2: "max 100000" or "150000 100000", quota and period in microseconds.
+std::optional<double> next_number(std::string_view& words) { return number_of<double>(take_word(words)); }
+
+std::optional<double> number_in(const std::filesystem::path& path) {
+    const std::string content = content_or_nothing(path);
+    std::string_view words = content;
+    return next_number(words);
+}
+
+void lower_to_quota(std::optional<double>& limit, std::optional<double> quota, std::optional<double> period) {
+    if (quota && period && *period > 0.0) lower_to(limit, *quota / *period);
+}
+
+// Version 2: "max 100000" or "150000 100000", quota and period in microseconds. "max" is no number: no limit.
 void read_version_2(const std::filesystem::path& group, std::optional<double>& limit) {
-    std::ifstream file(group / "cpu.max");
-    double quota = 0.0, period = 0.0;
-    if (file >> quota >> period && period > 0.0) lower_to(limit, quota / period); // "max" is no number: no limit
+    const std::string content = content_or_nothing(group / "cpu.max");
+    std::string_view words = content;
+    const std::optional<double> quota = next_number(words);
+    lower_to_quota(limit, quota, next_number(words));
 }
 
 // Version 1: two files; a quota of -1 means none.
 void read_version_1(const std::filesystem::path& group, std::optional<double>& limit) {
-    std::ifstream quota_file(group / "cpu.cfs_quota_us"), period_file(group / "cpu.cfs_period_us");
-    double quota = 0.0, period = 0.0;
-    if (quota_file >> quota && period_file >> period && period > 0.0) lower_to(limit, quota / period);
+    lower_to_quota(limit, number_in(group / "cpu.cfs_quota_us"), number_in(group / "cpu.cfs_period_us"));
 }
 
-bool names_cpu(const std::string& controllers) {
-    std::istringstream list(controllers);
-    for (std::string name; std::getline(list, name, ',');) {
-        if (name == "cpu") return true;
+bool names_cpu(std::string_view controllers) {
+    while (!controllers.empty()) {
+        if (take_before(controllers, ',') == "cpu") return true;
     }
     return false;
 }
@@ -50,13 +62,14 @@ void walk_up(const std::filesystem::path& mount, const std::string& group, Read 
 
 std::optional<double> cpu_quota(const std::filesystem::path& membership, const std::filesystem::path& mount) {
     std::optional<double> limit;
-    std::ifstream file(membership);
-    for (std::string line; std::getline(file, line);) { // hierarchy:controllers:path
-        const std::size_t first = line.find(':');
-        const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-        if (second == std::string::npos) continue;
-        const std::string controllers = line.substr(first + 1, second - first - 1);
-        const std::string group = line.substr(second + 1);
+    const std::string content = content_or_nothing(membership);
+    std::string_view lines = content;
+    while (!lines.empty()) { // hierarchy:controllers:path
+        std::string_view line = take_line(lines);
+        if (std::count(line.begin(), line.end(), ':') < 2) continue;
+        take_before(line, ':');
+        const std::string_view controllers = take_before(line, ':');
+        const std::string group(line);
         if (controllers.empty()) {
             walk_up(mount, group, [&](const std::filesystem::path& path) { read_version_2(path, limit); });
         } else if (names_cpu(controllers)) {

@@ -1,10 +1,11 @@
 // A profile as a table for people, at most 100 columns wide as far as words can be broken.
+#include "base/words.h"
 #include "model/cost_functions.h"
 #include "model/profile.h"
 
 #include <cstdarg>
 #include <cstdio>
-#include <sstream>
+#include <string_view>
 
 namespace raywise {
 namespace {
@@ -28,8 +29,8 @@ std::string paragraph(const std::string& label, const std::string& words) {
     std::string text = label + std::string(label.size() < indent ? indent - label.size() : 1, ' ');
     std::size_t column = indent;
     bool first = true;
-    std::istringstream stream(words);
-    for (std::string word; stream >> word; first = false) {
+    std::string_view rest = words;
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), first = false) {
         if (!first && column + 1 + word.size() > columns) {
             text += "\n" + std::string(indent, ' ');
             column = indent;

@@ -16,13 +16,14 @@ void Scene::require_committed() const {
 
 std::uint32_t Scene::add_triangles(const TriangleArrays& arrays, bool copy, bool skip_invalid) {
     require_uncommitted();
-    auto mesh = std::make_shared<const TriangleMesh>(arrays, copy, skip_invalid);
-    if (triangle_count_ + mesh->triangle_count() >= PrimitiveHit::no_primitive) {
+    const std::uint64_t count = arrays.triangle_count;
+    // A mesh that is too large by itself says so itself.
+    if (count < PrimitiveHit::no_primitive && triangle_count_ + count >= PrimitiveHit::no_primitive) {
         throw Error(Status::ERROR_TOO_MANY, "triangle_count: the scene would have " +
-                                                std::to_string(triangle_count_ + mesh->triangle_count()) +
+                                                std::to_string(triangle_count_ + count) +
                                                 " triangles, 4294967294 are the most");
     }
-    const std::uint64_t count = mesh->triangle_count();
+    auto mesh = std::make_shared<const TriangleMesh>(arrays, copy, skip_invalid);
     meshes_.push_back(std::move(mesh));
     triangle_count_ += count;
     return static_cast<std::uint32_t>(meshes_.size() - 1);

@@ -33,7 +33,7 @@ RayArrays inputs(const std::vector<Ray>& rays) {
         return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8,
                             Scalar::float64};
     };
-    return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax)};
+    return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax), {}};
 }
 
 std::shared_ptr<Scene> scene() {

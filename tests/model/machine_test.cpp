@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 namespace raywise {
 namespace {
 
@@ -53,11 +51,10 @@ TEST(ThisMachine, IsKnown) {
 }
 
 TEST(CpuIdentity, ReadsAnArmProcessor) {
-    std::istringstream cpuinfo(
+    const CpuIdentity cpu = arm_identity(
         "processor\t: 0\nBogoMIPS\t: 243.75\nFeatures\t: fp asimd\nCPU implementer\t: 0x41\n"
         "CPU architecture: 8\nCPU variant\t: 0x3\nCPU part\t: 0xd0c\nCPU revision\t: 1\n\n"
         "processor\t: 1\nCPU part\t: 0xd05\n");
-    const CpuIdentity cpu = arm_identity(cpuinfo);
     EXPECT_EQ(cpu.vendor, "arm-0x41");
     EXPECT_EQ(cpu.family, 8u);
     EXPECT_EQ(cpu.model, 0xd0cu);
@@ -65,10 +62,7 @@ TEST(CpuIdentity, ReadsAnArmProcessor) {
     EXPECT_EQ(cpu.instruction_set, "aarch64");
 }
 
-TEST(CpuIdentity, OfNothingIsUnknown) {
-    std::istringstream cpuinfo("");
-    EXPECT_EQ(arm_identity(cpuinfo).vendor, "unknown");
-}
+TEST(CpuIdentity, OfNothingIsUnknown) { EXPECT_EQ(arm_identity("").vendor, "unknown"); }
 
 TEST(CacheSizes, AreReadFromTheSystemsDescription) {
     const TemporaryFolder folder;

@@ -1,0 +1,61 @@
+// The library through dlopen, so that several builds of it can be in one process and take turns.
+#pragma once
+
+#include "scenes/scenes.h"
+
+#include "raywise/raywise.h"
+
+#include <memory>
+#include <string>
+
+namespace raywise::bench {
+
+// What the benchmarks call.
+#define RW_BENCH_FUNCTIONS(X)  \
+    X(rw_last_error_message)   \
+    X(rw_mesh_load)            \
+    X(rw_mesh_triangles)       \
+    X(rw_mesh_release)         \
+    X(rw_scene_create)         \
+    X(rw_scene_add_triangles)  \
+    X(rw_scene_set_structure)  \
+    X(rw_scene_commit)         \
+    X(rw_scene_release)        \
+    X(rw_scene_get_statistics) \
+    X(rw_scene_intersect)      \
+    X(rw_scene_occluded)
+
+class Library {
+public:
+    // Throws std::runtime_error when the file is no such library.
+    Library(std::string name, const std::string& path);
+    Library(const Library&) = delete; // stays in memory for the life of the process
+    Library& operator=(const Library&) = delete;
+
+    const std::string& name() const { return name_; }
+    // Throws std::runtime_error with the library's message when the status is not RW_OK.
+    void check(std::int32_t status) const;
+
+#define RW_BENCH_MEMBER(function) decltype(&::function) function = nullptr;
+    RW_BENCH_FUNCTIONS(RW_BENCH_MEMBER)
+#undef RW_BENCH_MEMBER
+
+private:
+    std::string name_;
+};
+
+// A committed scene with a forced structure.
+class BuiltScene {
+public:
+    // The mesh is used in place and has to outlive the scene.
+    BuiltScene(const Library& library, const workloads::Mesh& mesh, const char* structure);
+
+    const Library& library() const { return library_; }
+    const rw_scene* handle() const { return scene_.get(); }
+
+private:
+    const Library& library_;
+    std::unique_ptr<rw_scene, decltype(&::rw_scene_release)> scene_;
+};
+
+} // namespace raywise::bench
