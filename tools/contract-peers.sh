@@ -24,7 +24,7 @@ if [[ -n ${PEERS:-} ]]; then
 fi
 
 # The page names the state of the sources; of itself it says nothing.
-commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
+commit=$(git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 if [[ -n $(git status --porcelain -- . ":(exclude)$PAGE" 2>/dev/null) ]]; then
     commit+=" with changes"
 fi

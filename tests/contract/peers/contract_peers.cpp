@@ -5,13 +5,11 @@
 #include "contract/peers/peers_report.h"
 #include "contract/peers/server.h"
 #include "contract/raywise_library.h"
-#include "model/machine.h"
 #include "raywise/raywise.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -40,23 +38,8 @@ struct Options {
     std::string log = "contract_peers.log";
     std::string json;
     std::string page;
-    RunFacts facts;
+    sweep::ReportHead head;
 };
-
-std::string today() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[16];
-    std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
-    return text;
-}
-
-std::string machine_kind() {
-    const Machine& machine = this_machine();
-    return machine.brand + " (" + machine.vendor + " family " + std::to_string(machine.family) + " model " +
-           std::to_string(machine.model) + "), " + std::to_string(machine.threads) + " threads";
-}
 
 std::string raywise_version() {
     std::uint32_t major = 0, minor = 0, patch = 0;
@@ -132,8 +115,8 @@ void compare(const Options& options) {
     std::vector<LibraryResult> results;
     for (const Entrant& entrant : entrants) results.push_back(entrant.result);
     std::printf("\n%s", table_of(results).c_str());
-    if (!options.json.empty()) write(options.json, peers_json(options.facts, entrants).dump(1) + "\n");
-    if (!options.page.empty()) write(options.page, page_of(options.facts, families, entrants));
+    if (!options.json.empty()) sweep::write_json(options.json, peers_json(options.head, entrants));
+    if (!options.page.empty()) write(options.page, page_of(options.head, families, entrants));
 }
 
 void serve_peer(const Peer& peer) {
@@ -164,8 +147,8 @@ int run(int argc, char** argv) {
     app.add_option("--log", options.log, "what the libraries print (default: contract_peers.log)")->type_name("FILE");
     app.add_option("--json", options.json, "write the results to this file")->type_name("FILE");
     app.add_option("--page", options.page, "write the page for docs/ to this file")->type_name("FILE");
-    app.add_option("--commit", options.facts.commit, "for the reports: what was built")->type_name("NAME");
-    app.add_option("--command", options.facts.command, "for the reports: what was typed")->type_name("TEXT");
+    app.add_option("--commit", options.head.commit, "for the reports: what was built")->type_name("NAME");
+    app.add_option("--command", options.head.command, "for the reports: what was typed")->type_name("TEXT");
     app.add_option("--serve", options.serve, "answer requests on standard input with this peer, and do nothing else")
         ->type_name("NAME");
     try {
@@ -183,8 +166,9 @@ int run(int argc, char** argv) {
         serve_peer(*peer_named(options.serve));
         return 0;
     }
-    options.facts.machine = machine_kind();
-    options.facts.date = today();
+    options.head.target = "contract-peers";
+    options.head.machine = sweep::machine_text();
+    options.head.date = sweep::date_text();
     compare(options);
     return 0;
 }

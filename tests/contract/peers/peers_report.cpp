@@ -163,10 +163,11 @@ LibraryResult together(const std::string& name, const std::vector<LibraryResult>
     return all;
 }
 
-std::string page_of(const RunFacts& facts, const std::vector<Family>& families, const std::vector<Entrant>& entrants) {
+std::string page_of(const sweep::ReportHead& head, const std::vector<Family>& families,
+                    const std::vector<Entrant>& entrants) {
     std::string text = "# The hard cases, library by library\n\n";
-    text += "Written by `" + facts.command + "` on " + facts.date + ", on " + facts.machine + ", at commit " +
-            facts.commit + ". Not to be edited: run it again.\n\n";
+    text += "Written by `" + head.command + "` at commit " + head.commit + ", on " + head.date.substr(0, 10) +
+            ", on this machine: " + head.machine + ". Not to be edited: run it again.\n\n";
     text += pass_table(families, entrants);
     text += how_to_read;
     text += "\n## Versions, and how each is asked\n\n";
@@ -177,9 +178,9 @@ std::string page_of(const RunFacts& facts, const std::vector<Family>& families, 
     return text + "\n## Matters of convention\n\n" + conventions_of(families);
 }
 
-nlohmann::ordered_json peers_json(const RunFacts& facts, const std::vector<Entrant>& entrants) {
+sweep::Json peers_json(const sweep::ReportHead& head, const std::vector<Entrant>& entrants) {
     std::vector<LibraryResult> results;
-    nlohmann::ordered_json summary;
+    sweep::Json summary;
     for (const Entrant& entrant : entrants) {
         const Tally tally = tally_of(entrant.result);
         summary[entrant.result.library] = {{"version", entrant.version},
@@ -190,9 +191,7 @@ nlohmann::ordered_json peers_json(const RunFacts& facts, const std::vector<Entra
                                            {"failed_conventions", tally.failed_conventions}};
         results.push_back(entrant.result);
     }
-    return {{"target", "contract-peers"}, {"machine", facts.machine}, {"commit", facts.commit},
-            {"date", facts.date},         {"command", facts.command}, {"rows", report_of(results)["rows"]},
-            {"summary", summary}};
+    return sweep::merged_report(head, {{{"rows", report_of(results)["rows"]}, {"summary", summary}}});
 }
 
 } // namespace raywise::contract

@@ -24,7 +24,7 @@ std::vector<Family> one_family() {
         "family f\nabout f\ncase a\nabout a\nconvention Others | may differ.\nexpect error not-finite x\n", "f.txt")};
 }
 
-const RunFacts facts = {"a machine", "abc", "2026-11-26", "make contract-peers"};
+const sweep::ReportHead head = {"contract-peers", "a machine", "abc", "2026-11-26T01:02:03Z", "make contract-peers"};
 
 TEST(Together, EveryFormHasToPass) {
     const LibraryResult all = together("both", {{"both first",
@@ -49,12 +49,12 @@ TEST(Together, FormsOfDifferentCasesAreAMistake) {
 
 TEST(Json, HasWhatTheReportsOfAllTargetsHave) {
     const auto json =
-        peers_json(facts, {entrant("ours", {result("a", Outcome::passed), result("b", Outcome::skipped)}),
-                           entrant("theirs", {result("a", Outcome::failed), result("b", Outcome::passed)})});
+        peers_json(head, {entrant("ours", {result("a", Outcome::passed), result("b", Outcome::skipped)}),
+                          entrant("theirs", {result("a", Outcome::failed), result("b", Outcome::passed)})});
     EXPECT_EQ(json["target"], "contract-peers");
     EXPECT_EQ(json["machine"], "a machine");
     EXPECT_EQ(json["commit"], "abc");
-    EXPECT_EQ(json["date"], "2026-11-26");
+    EXPECT_EQ(json["date"], "2026-11-26T01:02:03Z");
     EXPECT_EQ(json["command"], "make contract-peers");
     EXPECT_EQ(json["rows"].size(), 4u);
     EXPECT_EQ(json["summary"]["ours"]["hard_cases_passed"], 1);
@@ -71,12 +71,12 @@ TEST(Page, TellsWhatEachPassesAndWhatItFails) {
     failed.failed_rays = 2;
     failed.convention = "Others may differ.";
     const std::string page =
-        page_of(facts, one_family(), {entrant("ours", {result("a", Outcome::passed)}), entrant("theirs", {failed})});
+        page_of(head, one_family(), {entrant("ours", {result("a", Outcome::passed)}), entrant("theirs", {failed})});
     for (const char* line :
          {"| family | ours | theirs |\n", "| f | 1/1 | 0/1 |\n", "| **all** | **1/1** | **0/1** |\n",
           "| failed, matters of convention | 0 | 1 |\n", "### ours\n\nNone.\n", "### theirs\n\nIt is made up.\n",
           "| f/a † | 2/9 | f.txt:3: expected x\\|y |\n", "| f/a | Others \\| may differ. |\n",
-          "`make contract-peers` on 2026-11-26, on a machine, at commit abc"})
+          "`make contract-peers` at commit abc, on 2026-11-26, on this machine: a machine"})
         EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page;
 }
 
