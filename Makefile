@@ -57,6 +57,11 @@ isa-aarch64: ## whether an AArch64 processor gives the same bits, in an emulator
 	@tools/setup.sh native isa-aarch64
 	@tools/isa-aarch64.sh
 
+.PHONY: fuzz
+fuzz: ## all fuzzers, each for so long [SECONDS=60] [SEED=N]
+	@tools/setup.sh fuzz
+	@env -u SECONDS FUZZ_SECONDS=$(or $(SECONDS),60) tools/fuzz.sh
+
 .PHONY: coverage
 coverage: ## which lines the C and C++ tests run; pages in build/coverage/report
 	@tools/setup.sh native coverage

@@ -42,8 +42,9 @@ std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_co
     return guard([&] {
         const rw_once_options o = read_optional_struct(options, "options");
         const rw_query_options query = read_optional_struct(o.query, "options.query");
+        // Below it is the caller's struct that is handed on: the copy says the caller's size and is not as large.
         read_hits(hits, read_rays(rays, "rays").count); // a wrong output is told before the work is done
-        intersect_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, hits, &query);
+        intersect_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, hits, o.query);
     });
 }
 
@@ -53,7 +54,7 @@ std::int32_t rw_once_occluded(const rw_triangles* meshes, std::uint32_t mesh_cou
         const rw_once_options o = read_optional_struct(options, "options");
         const rw_query_options query = read_optional_struct(o.query, "options.query");
         read_output(required(answers, "occluded"), read_rays(rays, "rays").count, 1, OutputKind::flags, "occluded");
-        occluded_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, answers, &query);
+        occluded_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, answers, o.query);
     });
 }
 

@@ -74,6 +74,13 @@ probe_libclang() {
     return 1
 }
 
+# libFuzzer comes beside the compiler, in a package of its own.
+probe_fuzzer_runtime() { # MAJOR VERSION
+    "clang++-$1" -fsanitize=fuzzer,address,undefined -x c++ - -o /dev/null >/dev/null 2>&1 <<<'
+        #include <fuzzer/FuzzedDataProvider.h>
+        extern "C" int LLVMFuzzerTestOneInput(const unsigned char *, unsigned long) { return 0; }'
+}
+
 # Where a cargo and rustc of the wanted version are: on PATH, where rustup puts them, or Debian's.
 find_rust() { # OLDEST VERSION
     local folder

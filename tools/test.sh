@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # tools/test.sh          all tests: the dev preset under ctest (C, C++, examples, Rust and Python), then the
-#                        tests of threads under the thread sanitizer. Ends with the closing line of every
-#                        runner, so that nobody has to take ctest's word for the languages behind it.
-# tools/test.sh PRESET   configure, build and test one preset with all C and C++ tests: asan-ubsan, tsan, coverage
+#                        tests of threads under the thread sanitizer, then every fuzzer for a short while.
+#                        Ends with the closing line of every runner, so that nobody has to take ctest's
+#                        word for the languages behind it.
+# tools/test.sh PRESET   configure, build and test one preset with all C and C++ tests: asan-ubsan, tsan, coverage;
+#                        or the fuzzers: fuzz
 #
 # TEST_FLAGS in the environment goes to ctest, e.g. TEST_FLAGS='-R grid'; JOBS is how many run at a time.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -115,6 +117,8 @@ summary() {
     if [[ ${#flags[@]} -eq 0 ]]; then
         printf '\nThreads (ctest, preset tsan)\n'
         report_ctest tsan
+        printf '\nFuzzers, a short while each (ctest, preset fuzz)\n'
+        report_ctest fuzz
     fi
 }
 
@@ -125,11 +129,14 @@ test_everything() {
     empty_logs
     run_ctest dev || failures+=("ctest, preset dev")
 
-    # A selection is somebody at work on one thing: no thread sanitizer for them; there is make test-tsan.
+    # A selection is somebody at work on one thing: no other presets for them; there are make test-tsan and make fuzz.
     if [[ ${#flags[@]} -eq 0 ]]; then
         configure tsan
         build tsan tests-of-threads
         run_ctest tsan tsan-threads || failures+=("ctest, preset tsan-threads")
+        configure fuzz
+        build fuzz
+        run_ctest fuzz || failures+=("ctest, preset fuzz")
     fi
 
     summary

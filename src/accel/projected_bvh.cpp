@@ -8,8 +8,6 @@
 namespace raywise {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr std::uint32_t root_box = 0xFFFFFFFFu;
 
 // Projects the 3D tree onto one plane.

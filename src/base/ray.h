@@ -33,7 +33,7 @@ struct Ray {
 // geometry/triangle_test.h) and the slab distances of boxes the ray meets within the scene are too, so a test that errs
 // by `margin` towards visiting can never lose a hit that another structure finds.
 //
-// Components of the direction below 2^-500 of the largest count as zero: their products with coordinates would leave the range
+// Components of the direction below 2^-500 of the largest (rounded down to a power of two) count as zero: their products with coordinates would leave the range
 // of float64, and with them exactness; 1 / direction stays finite or is infinite for a true zero.
 class PreparedRay {
 public:
@@ -58,10 +58,15 @@ public:
         shear_x = direction[x_axis] * inverse[major_axis];
         shear_y = direction[y_axis] * inverse[major_axis];
         tmin = from_caller(ray.tmin);
+        // Converting rounds only where the result is below the normal numbers; then the interval must not grow.
+        if (to_caller(tmin) < ray.tmin) tmin = std::nextafter(tmin, std::numeric_limits<double>::infinity());
         // A hit so far away that its t overflows in the caller's unit cannot be reported.
         tmax = std::min(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
+        if (to_caller(tmax) > ray.tmax) tmax = std::nextafter(tmax, -std::numeric_limits<double>::infinity());
         const double reach = max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)));
-        margin = 0x1p-34 * std::max(reach, 0x1p-900);
+        // A direction so long that the caller's t is below the normal numbers rounds t to steps that may be large here.
+        const double t_step = from_caller(std::numeric_limits<double>::denorm_min());
+        margin = std::max(0x1p-34 * std::max(reach, 0x1p-900), 16.0 * t_step);
         certain_edge =
             reach > 0x1p-370 && reach < 0x1p400 ? 0x1p-43 * reach * reach : std::numeric_limits<double>::infinity();
         axis_origin = {at(origin, x_axis), at(origin, y_axis), at(origin, major_axis)};

@@ -100,9 +100,11 @@ inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, c
     const double u = wb / sum;
     const double v = wc / sum;
     const double z = sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z));
-    hit.t = std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis) + 0.0; // + 0.0: never a negative zero
-    hit.u = u;
-    hit.v = v;
+    // As the caller will see it: two hits that are at the same t there have to be so here, where they are put in order.
+    hit.t = ray.from_caller(ray.to_caller(std::clamp(z, z_low, z_high) * at(ray.inverse, ray.major_axis)));
+    hit.t += 0.0; // here and below: never a negative zero
+    hit.u = u + 0.0;
+    hit.v = v + 0.0;
     return true;
 }
 

@@ -97,8 +97,7 @@ private:
         if (!index || word.find_first_not_of("0123456789/+-") != std::string_view::npos ||
             std::count(word.begin(), word.end(), '/') > 2) {
             throw Error(Status::ERROR_FILE_FORMAT, "face " + std::to_string(expected_.faces) + " (line " +
-                                                       std::to_string(line_) + "): \"" +
-                                                       std::string(word.substr(0, 40)) + "\" is no corner");
+                                                       std::to_string(line_) + "): " + quoted(word) + " is no corner");
         }
         const std::int64_t vertex = *index > 0 ? *index - 1 : static_cast<std::int64_t>(expected_.vertices) + *index;
         if (*index == 0 || vertex < 0 || vertex > static_cast<std::int64_t>(most_elements)) {

@@ -130,9 +130,7 @@ private:
         for (std::uint64_t i = 0; i < *corners; ++i) {
             const std::string_view word = take_word(words);
             const auto index = number_of<std::int64_t>(word);
-            if (!index)
-                fail_face(number, word.empty() ? "it has too few corners"
-                                               : "\"" + std::string(word.substr(0, 40)) + "\" is no index");
+            if (!index) fail_face(number, word.empty() ? "it has too few corners" : quoted(word) + " is no index");
             if (*index < 0 || static_cast<std::uint64_t>(*index) >= expected_.vertices) {
                 fail_index(number, std::to_string(*index), expected_.vertices);
             }

@@ -26,7 +26,7 @@ Type type_named(std::string_view name) {
     if (name == "uint" || name == "uint32") return {4, false, false};
     if (name == "float" || name == "float32") return {4, true, true};
     if (name == "double" || name == "float64") return {8, true, true};
-    fail("the header names an unknown type: " + std::string(name.substr(0, 40)));
+    fail("the header names an unknown type: " + quoted(name));
 }
 
 struct Property {
@@ -105,20 +105,19 @@ Header header_of(std::string_view text) {
             else if (format == "binary_big_endian")
                 header.encoding = Encoding::big;
             else
-                fail("the header names an unknown format: " + std::string(format.substr(0, 40)));
+                fail("the header names an unknown format: " + quoted(format));
         } else if (keyword == "element") {
             Element element;
             element.name = take_word(words);
             const auto count = number_of<std::uint64_t>(take_word(words));
-            if (!count)
-                fail("the header does not say how many of element " + element.name.substr(0, 40) + " there are");
+            if (!count) fail("the header does not say how many of element " + quoted(element.name) + " there are");
             element.count = *count;
             header.elements.push_back(std::move(element));
         } else if (keyword == "property") {
             if (header.elements.empty()) fail("the header holds a property before the first element");
             header.elements.back().properties.push_back(property_of(words, header.elements.back()));
         } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-            fail("the header holds an unknown word: " + std::string(keyword.substr(0, 40)));
+            fail("the header holds an unknown word: " + quoted(keyword));
         }
     }
     if (!has_format) fail("the header does not name the format");
@@ -148,8 +147,8 @@ public:
         if (encoding_ == Encoding::ascii) {
             const auto number = number_of<std::int64_t>(value);
             if (!number)
-                fail(std::string(element) + " " + std::to_string(number_of_element) + ": \"" +
-                     std::string(value.substr(0, 40)) + "\" is no integer");
+                fail(std::string(element) + " " + std::to_string(number_of_element) + ": " + quoted(value) +
+                     " is no integer");
             return *number;
         }
         std::uint64_t number = 0;
@@ -318,8 +317,9 @@ private:
 
     void skip(const Element& element) {
         if (element.properties.empty()) return;
+        const std::string name = quoted(element.name);
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            for (const Property& property : element.properties) values_.skip(property, element.name.c_str(), i);
+            for (const Property& property : element.properties) values_.skip(property, name.c_str(), i);
         }
     }
 

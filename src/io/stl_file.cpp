@@ -73,7 +73,7 @@ public:
                 take_line(rest_);
                 ended = false;
             } else {
-                fail("\"" + std::string(word.substr(0, 40)) + "\" instead of facet or endsolid");
+                fail(quoted(word) + " instead of facet or endsolid");
             }
         }
         if (!ended) fail("the file is truncated: endsolid is missing");
@@ -88,7 +88,7 @@ private:
         const std::string_view word = take_word(rest_);
         if (is_word(word, wanted)) return;
         if (word.empty()) fail("the file is truncated: " + std::string(wanted) + " is missing");
-        fail("\"" + std::string(word.substr(0, 40)) + "\" instead of " + std::string(wanted));
+        fail(quoted(word) + " instead of " + std::string(wanted));
     }
 
     void facet() {
@@ -110,8 +110,7 @@ private:
             }
         }
         if (!is_word(word, "endloop"))
-            fail(word.empty() ? "the file is truncated"
-                              : "\"" + std::string(word.substr(0, 40)) + "\" instead of vertex or endloop");
+            fail(word.empty() ? "the file is truncated" : quoted(word) + " instead of vertex or endloop");
         if (count < 3) fail_bad_polygon(mesh_.face_count, count);
         if (count > 3) fail("it has " + std::to_string(count) + " corners instead of 3");
         expect("endfacet");

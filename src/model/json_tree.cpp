@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace raywise {
@@ -14,11 +15,14 @@ using nlohmann::json;
 // A profile nests five deep: structures, a structure, ray_ns, a kind, a value.
 constexpr std::size_t deepest = 8;
 
-// What the parser says, without its own prefix "[json.exception.parse_error.101] ".
+// What the parser says, without its own prefix "[json.exception.parse_error.101] ". It quotes the file, and messages go to
+// terminals: nothing but printable ASCII.
 std::string plain_words(const char* what) {
     const std::string text = what;
     const std::size_t end = text.find("] ");
-    const std::string words = end == std::string::npos ? text : text.substr(end + 2);
+    std::string words = end == std::string::npos ? text : text.substr(end + 2);
+    std::replace_if(
+        words.begin(), words.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return words.size() > 200 ? words.substr(0, 197) + "..." : words;
 }
 

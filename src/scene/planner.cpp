@@ -109,7 +109,7 @@ private:
     [[noreturn]] void fail_over_limit() const {
         double smallest = std::numeric_limits<double>::infinity();
         for (const PlannedCandidate& candidate : plan_.candidates) {
-            if (!candidate.applicable || (request_.forced && candidate.structure != *request_.forced)) continue;
+            if (request_.forced ? candidate.structure != *request_.forced : !candidate.applicable) continue;
             const double bytes =
                 candidate.actual_bytes != 0 ? static_cast<double>(candidate.actual_bytes) : candidate.predicted.bytes;
             smallest = std::min(smallest, bytes);

@@ -50,6 +50,18 @@ TEST(PreparedRay, ScalesTheDirectionByAPowerOfTwo) {
     }
 }
 
+// Where the interval's ends fall below the normal numbers they are rounded to the inside.
+TEST(PreparedRay, NeverWidensTheInterval) {
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    for (const double scale : {0x1p-60, 0.03, 1.0, 3.0, 0x1p60}) {
+        for (const double limit : {smallest, 3 * smallest, 5 * smallest, 1001 * smallest}) {
+            const PreparedRay ray({{0, 0, 0}, limit, {0, scale, 0}, limit}, unit_box());
+            EXPECT_GE(ray.to_caller(ray.tmin), limit) << scale;
+            EXPECT_LE(ray.to_caller(ray.tmax), limit) << scale;
+        }
+    }
+}
+
 TEST(BoxInterval, MeetsABoxFromEveryDirection) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> coordinate(-1.0, 1.0);

@@ -144,6 +144,12 @@ static void struct_sizes(void) {
         rw_triangles known;
         unsigned char later[24];
     } newer_triangles;
+    struct {
+        rw_query_options known;
+        unsigned char later[2048];
+    } newer_query;
+    rw_once_options once;
+    rw_output flags;
     rw_scene_statistics statistics;
     rw_triangles t = triangles_of(&s);
     rw_rays rays;
@@ -173,6 +179,23 @@ static void struct_sizes(void) {
     newer_triangles.later[5] = 1;
     CHECK_ERROR(rw_scene_add_triangles(fresh, &newer_triangles.known, NULL), RW_ERROR_INVALID_ARGUMENT,
                 "triangles|does not know");
+
+    /* One struct inside another. */
+    memset(&newer_query, 0, sizeof newer_query);
+    memset(&once, 0, sizeof once);
+    memset(&flags, 0, sizeof flags);
+    newer_query.known.struct_size = sizeof newer_query;
+    once.struct_size = sizeof once;
+    once.query = &newer_query.known;
+    hits.struct_size = sizeof hits;
+    flags.data = &newer;
+    CHECK_OK(rw_once_intersect(&t, 1, &rays, &hits, &once));
+    CHECK_OK(rw_once_occluded(&t, 1, &rays, &flags, &once));
+    newer_query.later[2047] = 1;
+    CHECK_ERROR(rw_once_intersect(&t, 1, &rays, &hits, &once), RW_ERROR_INVALID_ARGUMENT,
+                "options.query|does not know");
+    CHECK_ERROR(rw_once_occluded(&t, 1, &rays, &flags, &once), RW_ERROR_INVALID_ARGUMENT,
+                "options.query|does not know");
 }
 
 /* A struct_size that is none of today's nor of an earlier version, in every struct that has one and every call that takes it. */

@@ -10,6 +10,7 @@
 #include <locale>
 #include <random>
 #include <thread>
+#include <utility>
 
 namespace raywise {
 namespace {
@@ -399,6 +400,33 @@ TEST_F(MeshFile, NamesAWordThatIsNoNumber) {
     expect_error("a.obj", square_obj + "f 1 x 3\n", Status::ERROR_FILE_FORMAT, "face 1 (line 6)");
     expect_error("a.obj", square_obj + "f /1 /2 /3\n", Status::ERROR_FILE_FORMAT, "face 1");
     expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 x\n", Status::ERROR_FILE_FORMAT, "face 0");
+}
+
+// Messages go to terminals, which obey control characters.
+TEST_F(MeshFile, QuotesWordsFitForTerminals) {
+    const std::string word = "\x1B[2J\x7F\xFF" + std::string(500, 'x');
+    const std::pair<const char*, std::string> files[] = {
+        {"a.obj", "v 0 " + word + " 0\n"},
+        {"a.obj", square_obj + "f 1 " + word + " 3\n"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 " + word + "\n"},
+        {"a.ply", "ply\nformat " + word + "\n"},
+        {"a.ply", "ply\nformat ascii 1.0\n" + word + "\nend_header\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement " + word + " x\nend_header\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty " + word + " x\nend_header\n"},
+        {"a.stl", "solid\n" + word + "\n"},
+        {"a.stl", "solid\nfacet " + word + "\n"},
+    };
+    for (const auto& [name, content] : files) {
+        try {
+            load_mesh(files_.write(name, content));
+            ADD_FAILURE() << name;
+        } catch (const Error& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find("\"?[2J??xxx"), std::string::npos) << message;
+            EXPECT_EQ(message.find_first_of("\x1B\x7F\xFF"), std::string::npos);
+            EXPECT_LT(message.size(), 300u);
+        }
+    }
 }
 
 TEST_F(MeshFile, NamesCountsBeyondTheIds) {

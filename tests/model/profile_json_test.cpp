@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -249,6 +250,21 @@ TEST(ProfileJson, TextsAreFitForTerminals) {
         EXPECT_EQ(status_of(document, &message), Status::PROFILE_MALFORMED);
         EXPECT_EQ(message.find_first_of("\x1B\n\x7F"), std::string::npos);
         EXPECT_LT(message.size(), 300u);
+    }
+}
+
+// What the parser itself complains about it quotes.
+TEST(ProfileJson, QuotesOfBrokenTextsAreFitForTerminals) {
+    for (const char* text : {"\x7F", "\"\x7F\xFF\"", "{\"a\x1B[2J\"", "[\"\xC2\x9B\""}) {
+        try {
+            parse_profile(text);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.status(), Status::PROFILE_MALFORMED);
+            const std::string message = error.what();
+            EXPECT_TRUE(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }))
+                << message;
+        }
     }
 }
 

@@ -105,6 +105,24 @@ TEST(Planner, RefusesALimitThatNothingFits) {
     }
 }
 
+// One that is meant for views is not a candidate without one, and still has a size of its own.
+TEST(Planner, TellsWhatAForcedStructureNeeds) {
+    for (const Structure structure : all_structures()) {
+        try {
+            make_scene(make_soup(1000), three_steps(), [&](Scene& s) {
+                s.set_structure(structure);
+                s.set_memory_limit(1);
+            });
+            FAIL() << "a structure of one byte";
+        } catch (const Error& error) {
+            const std::string message = error.what();
+            const std::size_t number = message.find("needs about ");
+            ASSERT_NE(number, std::string::npos) << message;
+            EXPECT_LT(std::stod(message.substr(number + 12)), 1e7) << message;
+        }
+    }
+}
+
 TEST(Planner, MeasuresEveryCandidateThatFits) {
     const auto scene = make_scene(make_soup(2000), three_steps(), [](Scene& s) {
         s.set_expected({1000, RayKind::random}, {});

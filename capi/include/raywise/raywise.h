@@ -19,7 +19,7 @@
  *   take a const handle may run at the same time in any number of threads; others need the handle alone.
  * - Rays. t is measured in units of the direction's length. A hit counts when tmin <= t <= tmax. A ray
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
- *   Components of a direction below 2^-500 of its largest count as zero.
+ *   Components of a direction below 2^-500 of its largest, that one rounded down to a power of two, count as zero.
  * - Answers. Whether a ray's line meets a triangle is decided by exact arithmetic on the coordinates given; edges and corners
  *   belong to the triangle. A triangle seen edge-on, and one without area, is not met. t is accurate to 2^-37 of the distance between the ray's origin and the farthest point of the
  *   scene, u and v to 2^-30, nearly always to all but the last bits; a hit that close to tmin or tmax counts as its rounded t
