@@ -11,14 +11,14 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS PEERS
 
 CALIBRATE_FLAGS ?=
 
 .PHONY: help
 help: ## list the goals
 	@echo "make GOAL, where GOAL is one of:"
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 .PHONY: setup
 setup: ## install all that any goal needs
@@ -76,6 +76,11 @@ bench: ## build and run the benchmarks; reports in build/reports [QUICK=1]
 contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]
 	@tools/setup.sh native
 	@tools/contract.sh
+
+.PHONY: contract-peers
+contract-peers: ## the hard cases before other libraries [QUICK=1] [PEERS='embree cgal ...']
+	@tools/setup.sh native peers
+	@tools/contract-peers.sh
 
 .PHONY: bindings
 bindings: ## regenerate the Rust and Python declarations from the header

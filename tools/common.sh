@@ -6,6 +6,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 ROOT=$PWD
 # shellcheck disable=SC2034  # for the scripts that source this file
 VENV=$ROOT/build/venv
+# shellcheck disable=SC2034
+PEERS_VENV=$ROOT/build/venv-peers
 TOOLCHAIN=$ROOT/build/toolchain/bin
 
 # setup.sh puts cargo and rustc here when the ones found first on PATH are too old. The presets do the

@@ -12,6 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 readonly EXIT_MISSING=3
 readonly TABLE=$ROOT/tools/packages.txt
 readonly REQUIREMENTS=$ROOT/bindings/python/requirements-test.txt
+readonly PEERS_REQUIREMENTS=$ROOT/tests/contract/peers/requirements.txt
 readonly LOGS=$ROOT/build/setup
 
 check_only=no
@@ -292,11 +293,11 @@ fetch_crates() {
     done
 }
 
-# What build/venv was made from. Equal means that there is nothing to do.
-venv_recipe() { # PYTHON
-    echo "$VENV"
+# What a virtual environment was made from. Equal means that there is nothing to do.
+venv_recipe() { # PYTHON FOLDER REQUIREMENTS
+    echo "$2"
     "$1" --version
-    cat "$REQUIREMENTS"
+    cat "$3"
 }
 
 condense_pip() {
@@ -304,25 +305,25 @@ condense_pip() {
     grep --line-buffered -E '^ *(Downloading|Successfully|ERROR|WARNING|error)' | sed -u 's/^ */    /' || true
 }
 
-make_venv() {
-    local python
+make_venv() { # FOLDER REQUIREMENTS
+    local folder=$1 requirements=$2 name=${1#"$ROOT/"} python
     python=$(find_python 3.9) || fail "no python3 of version 3.9 or newer on PATH"
-    [[ -f $REQUIREMENTS ]] || fail "bindings/python/requirements-test.txt is missing"
-    if [[ -x $VENV/bin/python ]] && venv_recipe "$python" | cmp -s - "$VENV/made-from.txt"; then
-        note "Python: $("$VENV/bin/python" --version), packages in build/venv up to date"
+    [[ -f $requirements ]] || fail "${requirements#"$ROOT/"} is missing"
+    if [[ -x $folder/bin/python ]] && venv_recipe "$python" "$folder" "$requirements" | cmp -s - "$folder/made-from.txt"; then
+        note "Python: $("$folder/bin/python" --version), packages in $name up to date"
         return 0
     fi
 
-    step "Installing Python packages into build/venv ($("$python" --version))"
+    step "Installing Python packages into $name ($("$python" --version))"
     mkdir -p "$LOGS"
-    rm -rf "$VENV"
-    "$python" -m venv "$VENV"
-    if ! "$VENV/bin/python" -m pip install --no-input --disable-pip-version-check --progress-bar off \
-        -r "$REQUIREMENTS" </dev/null 2>&1 | tee "$LOGS/pip.log" | condense_pip; then
+    rm -rf "$folder"
+    "$python" -m venv "$folder"
+    if ! "$folder/bin/python" -m pip install --no-input --disable-pip-version-check --progress-bar off \
+        -r "$requirements" </dev/null 2>&1 | tee "$LOGS/pip.log" | condense_pip; then
         fail "pip failed; all it said is in build/setup/pip.log"
     fi
     # Last, so that an interrupted run is not taken for a finished one.
-    venv_recipe "$python" >"$VENV/made-from.txt"
+    venv_recipe "$python" "$folder" "$requirements" >"$folder/made-from.txt"
 }
 
 main() {
@@ -341,7 +342,10 @@ main() {
     [[ $check_only == no ]] || return 0
     if needs test bindings; then
         choose_rust
-        make_venv
+        make_venv "$VENV" "$REQUIREMENTS"
+    fi
+    if needs peers; then
+        make_venv "$PEERS_VENV" "$PEERS_REQUIREMENTS"
     fi
     if needs test; then
         fetch_crates

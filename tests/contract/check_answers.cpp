@@ -32,22 +32,33 @@ std::string said(const Answer& answer) { return ", got " + text_of(answer); }
 
 // Exact answers, widened and narrowed by the library's tolerance at the ends of the interval.
 struct Bounds {
-    Bounds(const ExactScene& exact, const Ray& ray, double tolerance) : tolerance_(tolerance) {
+    Bounds(const ExactScene& exact, const Ray& ray, double tolerance, const Capabilities& capabilities)
+        : exact_(exact), ray_(ray), tolerance_(tolerance), decides_exactly_(capabilities.decides_exactly) {
         Ray wide = ray;
         wide.tmin -= tolerance;
         wide.tmax += tolerance;
         possible = exact.answers(ray.tmin <= ray.tmax ? wide : ray);
-        const auto surely = [&](const ExactAnswer& answer) {
-            const auto t = answer.t.convert_to<double>();
-            return t >= ray.tmin + tolerance && t <= ray.tmax - tolerance;
-        };
         for (const ExactAnswer& answer : possible.touched) {
-            if (!surely(answer)) {
-                all_certain = false;
-            } else if (!first_certain) {
-                first_certain = answer.t.convert_to<double>();
-            }
+            const auto t = answer.t.convert_to<double>();
+            certain.push_back(t >= ray.tmin + tolerance && t <= ray.tmax - tolerance);
+            if (certain.back() && !first_certain) first_certain = t;
         }
+    }
+
+    bool all_certain() const { return std::find(certain.begin(), certain.end(), false) == certain.end(); }
+
+    // Whether these are all triangles touched, each once: an honest list, though no count of crossings. Those met edge-on may be
+    // in it.
+    bool are_all_touched(const std::vector<Answer>& all) const {
+        const auto times = [&](const PrimitiveId& id) {
+            return std::count_if(all.begin(), all.end(), [&](const Answer& answer) { return id_of(answer) == id; });
+        };
+        for (std::size_t i = 0; i < possible.touched.size(); ++i) {
+            if (certain[i] && times(possible.touched[i].id) == 0) return false;
+        }
+        return std::all_of(all.begin(), all.end(), [&](const Answer& answer) {
+            return times(id_of(answer)) == 1 && (fault_in_place(answer).empty() || is_met_edge_on(answer));
+        });
     }
 
     // What is wrong with a triangle being hit there; empty: nothing.
@@ -58,18 +69,40 @@ struct Bounds {
             if (near(t, answer.t, tolerance_)) return "";
             return "expected triangle " + id_text(touch.id) + " at t " + text_of(t) + said(answer);
         }
+        if (!decides_exactly_ && is_beside_a_touched_one(answer)) return "";
         return "expected no hit of a triangle that the ray does not touch" + said(answer);
+    }
+
+    // Whether it is a hit as good as the first one.
+    bool is_first(const Answer& answer) const {
+        return answer.hit && fault_in_place(answer).empty() &&
+               (!first_certain || answer.t <= *first_certain + 2.0 * tolerance_);
     }
 
     ExactAnswers possible;
     std::optional<double> first_certain; // t of the closest hit that has to be found
-    bool all_certain = true;             // every possible hit has to be found
+    std::vector<bool> certain;           // of each possible hit: whether it has to be found
 
 private:
+    // Something is touched there, and the triangle named is next to it.
+    bool is_beside_a_touched_one(const Answer& answer) const {
+        const bool touched = std::any_of(
+            possible.touched.begin(), possible.touched.end(),
+            [&](const ExactAnswer& touch) { return near(touch.t.convert_to<double>(), answer.t, tolerance_); });
+        return touched && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+    }
+
+    bool is_met_edge_on(const Answer& answer) const {
+        return exact_.is_edge_on(ray_, id_of(answer)) && exact_.distance(ray_, answer.t, id_of(answer)) <= tolerance_;
+    }
+
+    const ExactScene& exact_;
+    const Ray& ray_;
     double tolerance_;
+    bool decides_exactly_;
 };
 
-std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double tolerance) {
+std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double tolerance, bool counts_crossings) {
     const Answer& closest = answers.closest;
     if (!closest.hit) {
         if (!bounds.first_certain) return "";
@@ -79,7 +112,8 @@ std::string fault_in_exact(const Answers& answers, const Bounds& bounds, double 
     if (!fault.empty()) return fault;
     if (bounds.first_certain && closest.t > *bounds.first_certain + 2.0 * tolerance)
         return "expected the closest hit, at t " + text_of(*bounds.first_certain) + said(closest);
-    const bool countable = answers.all && bounds.all_certain && bounds.possible.count_certain;
+    const bool countable = answers.all && bounds.all_certain() && bounds.possible.count_certain;
+    if (!counts_crossings && answers.all && bounds.are_all_touched(*answers.all)) return "";
     if (countable && answers.all->size() != bounds.possible.count())
         return "expected " + std::to_string(bounds.possible.count()) + " hits in all, got " + list_of(*answers.all);
     return "";
@@ -132,10 +166,15 @@ std::string fault_in_closest(const Expectation& expectation, const Answer& close
 Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities) {
     Answers answers;
     answers.closest = scene.closest(ray);
-    if (capabilities.has_any) answers.any = scene.any(ray);
-    if (capabilities.has_all) {
-        answers.all.emplace();
-        scene.all(ray, *answers.all);
+    try {
+        if (capabilities.has_any) answers.any = scene.any(ray);
+    } catch (const Inexpressible&) {
+        answers.any.reset();
+    }
+    try {
+        if (capabilities.has_all) scene.all(ray, answers.all.emplace());
+    } catch (const Inexpressible&) {
+        answers.all.reset();
     }
     return answers;
 }
@@ -167,14 +206,19 @@ Verdict check(const Expectation& expectation, const Ray& ray, const Answers& ans
     // NaN for rays without a direction, which nothing is measured along.
     const double reach = exact.reach(ray);
     const double tolerance = std::isfinite(reach) ? capabilities.t_tolerance * reach : 0.0;
+    const auto bounds = [&] { return Bounds(exact, ray, tolerance, capabilities); };
     if (expectation.kind == Expected::exact) {
-        why = fault_in_exact(answers, Bounds(exact, ray, tolerance), tolerance);
+        why = fault_in_exact(answers, bounds(), tolerance, capabilities.counts_crossings);
     } else if (expectation.kind == Expected::plane) {
-        why = answers.closest.hit ? Bounds(exact, ray, tolerance).fault_in_place(answers.closest) : "";
+        why = answers.closest.hit ? bounds().fault_in_place(answers.closest) : "";
     } else if (describe(expectation.kind).needs_all) {
         why = fault_in_all(expectation, *answers.all, tolerance);
+        if (!why.empty() && !capabilities.counts_crossings && bounds().are_all_touched(*answers.all)) why.clear();
     } else {
         why = fault_in_closest(expectation, answers.closest, tolerance);
+        if (!why.empty() && expectation.kind == Expected::primitive && !capabilities.orders_ties &&
+            bounds().is_first(answers.closest))
+            why.clear();
     }
     return why.empty() ? Verdict::met : Verdict::not_met;
 }

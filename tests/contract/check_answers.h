@@ -17,6 +17,7 @@ struct Answers {
     std::optional<bool> any;
     std::optional<std::vector<Answer>> all;
 };
+// Throws Inexpressible when the library cannot be asked for the closest hit; what else it cannot be asked stays empty.
 Answers ask(Scene& scene, const Ray& ray, const Capabilities& capabilities);
 
 // What is wrong with them, whatever is expected: any, all and closest are about the same hits. Empty: nothing. `question`

@@ -1,5 +1,7 @@
 #include "contract/exact_hits.h"
 
+#include "contract/nearness.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -147,6 +149,26 @@ double ExactScene::reach(const Ray& ray) const {
         return std::max(std::fabs(at(lower_, axis) - o), std::fabs(at(upper_, axis) - o));
     };
     return static_cast<double>(std::hypot(farthest(0), farthest(1), farthest(2)) / length(ray.direction));
+}
+
+const ExactScene::Triangle* ExactScene::find(const PrimitiveId& id) const {
+    const auto found =
+        std::find_if(triangles_.begin(), triangles_.end(), [&](const Triangle& triangle) { return triangle.id == id; });
+    return found == triangles_.end() ? nullptr : &*found;
+}
+
+double ExactScene::distance(const Ray& ray, double t, const PrimitiveId& id) const {
+    const Triangle* triangle = find(id);
+    if (triangle == nullptr) return std::numeric_limits<double>::infinity();
+    return contract::distance(ray.origin + t * ray.direction, triangle->corners) / glm::length(ray.direction);
+}
+
+bool ExactScene::is_edge_on(const Ray& ray, const PrimitiveId& id) const {
+    const Triangle* triangle = find(id);
+    if (triangle == nullptr || !is_finite(ray.origin) || !is_finite(ray.direction)) return false;
+    const Point a = exact(triangle->corners[0]);
+    const Point normal = cross(minus(exact(triangle->corners[1]), a), minus(exact(triangle->corners[2]), a));
+    return dot(exact(ray.direction), normal) == 0 && dot(minus(exact(ray.origin), a), normal) == 0;
 }
 
 // A slab test that leaves a thousand times more room than its rounding needs, so that the judge is asked about everything the ray

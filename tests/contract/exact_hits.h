@@ -39,6 +39,13 @@ public:
     // Distance from the origin to the farthest corner, in units of the direction: what tolerances of t refer to.
     double reach(const Ray& ray) const;
 
+    // How far the ray's point at t is from a triangle, in units of the direction; rounded. Infinite where there is no such
+    // triangle or it has no area.
+    double distance(const Ray& ray, double t, const PrimitiveId& id) const;
+
+    // Whether the ray runs in the triangle's plane, exactly.
+    bool is_edge_on(const Ray& ray, const PrimitiveId& id) const;
+
 private:
     struct Triangle {
         Vec3 corners[3];
@@ -47,6 +54,7 @@ private:
         PrimitiveId id;
     };
     bool may_touch(const Triangle& triangle, const Ray& ray, double slack) const;
+    const Triangle* find(const PrimitiveId& id) const;
 
     std::vector<Triangle> triangles_;
     Vec3 lower_{0.0};

@@ -42,6 +42,13 @@ public:
     const std::string kind;
 };
 
+// A question for which the library has no words, such as an interval where it knows none. What depends on the answer is skipped,
+// not failed.
+class Inexpressible : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 struct Capabilities {
     bool has_any = true;             // tells whether anything is hit, by a call of its own
     bool has_all = true;             // lists every hit
@@ -49,6 +56,12 @@ struct Capabilities {
     bool refuses_bad_meshes = false; // says so when a mesh has a NaN, an infinity or an index out of range
     bool many_geometries = true;     // keeps several meshes apart in one scene
     bool orders_ties = true;         // promises the lowest id where several triangles are hit at the same t
+    // Hits and misses are those of exact arithmetic. Of others a hit counts for the triangle touched at that t when it is within
+    // t_tolerance of the one that they name.
+    bool decides_exactly = true;
+    // Counts each surface once where a ray passes through its edges and corners. One that promises less may list every triangle
+    // that is touched there instead, and those that are met edge-on.
+    bool counts_crossings = true;
     // How far t may be off, as a part of the distance between the ray's origin and the scene's farthest point: what
     // the library promises, or what its precision allows.
     double t_tolerance = 0x1p-37;

@@ -12,6 +12,14 @@
 namespace raywise::contract {
 namespace {
 
+// Keeps so many rays of a sweep, at even distances.
+void thin(RayGroup& group, std::uint64_t most) {
+    const std::uint64_t count = group.rays.size();
+    if (most == 0 || count <= most || group.lines->sweep.empty()) return;
+    for (std::uint64_t i = 0; i < most; ++i) group.rays[i] = group.rays[i * count / most];
+    group.rays.resize(most);
+}
+
 class CaseRun {
 public:
     CaseRun(Library& library, const Family& family, const Case& source)
@@ -21,12 +29,13 @@ public:
         result_.convention = source.convention;
     }
 
-    CaseResult run(std::uint64_t sweep_factor) {
+    CaseResult run(const RunOptions& options) {
         try {
             if (!case_.refusal.empty() && !capabilities_.refuses_bad_meshes) return skip("does not check its meshes");
             if (case_.geometries.size() > 1 && !capabilities_.many_geometries)
                 return skip("takes one geometry per scene");
-            const ExpandedCase expanded = expand(case_, sweep_factor);
+            ExpandedCase expanded = expand(case_, options.sweep_factor);
+            for (RayGroup& group : expanded.groups) thin(group, options.most_sweep_rays);
             if (!case_.refusal.empty()) {
                 expect_refusal(expanded);
             } else {
@@ -34,12 +43,15 @@ public:
             }
         } catch (const MeshFileAbsent& absent) {
             return skip(absent.what());
+        } catch (const Inexpressible& inexpressible) {
+            return skip(inexpressible.what());
         } catch (const Refusal& refusal) {
             fail("mesh", std::string("the mesh was refused: ") + refusal.what());
         } catch (const std::exception& error) {
             fail("library", std::string("the library failed: ") + error.what());
         }
-        if (result_.outcome == Outcome::passed && checked_ == 0) return skip("has no call for what is expected");
+        if (result_.outcome == Outcome::passed && checked_ == 0)
+            return skip(inexpressible_.empty() ? "has no call for what is expected" : inexpressible_);
         return result_;
     }
 
@@ -80,10 +92,15 @@ private:
         for (const RayGroup& group : expanded.groups) {
             std::vector<Answer> closest;
             for (const Ray& ray : group.rays) {
-                const Answers answers = ask(*scene, ray, capabilities_);
-                closest.push_back(answers.closest);
-                check_ray(group, ray, answers, exact);
+                try {
+                    const Answers answers = ask(*scene, ray, capabilities_);
+                    closest.push_back(answers.closest);
+                    check_ray(group, ray, answers, exact);
+                } catch (const Inexpressible& inexpressible) {
+                    inexpressible_ = inexpressible.what();
+                }
             }
+            if (closest.size() < group.rays.size()) continue; // what follows is about all of them
             for (const Expectation& expectation : group.lines->expectations) {
                 if (expectation.kind == Expected::batch && capabilities_.has_batch) check_batch(*scene, group, closest);
                 if (expectation.kind == Expected::repeatable)
@@ -155,6 +172,7 @@ private:
     const std::string file_;
     const Case& case_;
     CaseResult result_;
+    std::string inexpressible_; // why a ray could not be asked
     std::uint64_t checked_ = 0; // expectations that the library has a call for
 };
 
@@ -177,8 +195,7 @@ LibraryResult run_cases(Library& library, const std::vector<Family>& families, c
     LibraryResult result{library.name(), {}};
     for (const Family& family : families) {
         if (options.begins) options.begins(family.name);
-        for (const Case& source : family.cases)
-            result.cases.push_back(CaseRun(library, family, source).run(options.sweep_factor));
+        for (const Case& source : family.cases) result.cases.push_back(CaseRun(library, family, source).run(options));
     }
     return result;
 }

@@ -41,6 +41,7 @@ struct LibraryResult {
 
 struct RunOptions {
     std::uint64_t sweep_factor = 1;                        // multiplies the rays of sweeps
+    std::uint64_t most_sweep_rays = 0;                     // so many of each sweep, spread over it; 0: all
     std::function<void(const std::string& family)> begins; // progress; may be empty
 };
 
