@@ -432,8 +432,8 @@ typedef struct rw_expected_rays {
 
 /* Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
  * expected: struct_size set; not NULL.
- * Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY.
- * Threads: alone with the scene. Since: 0.1. */
+ * Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
+ * RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1. */
 RW_API int32_t rw_scene_set_expected_rays(rw_scene *scene, const rw_expected_rays *expected);
 
 /* Does: bounds the memory that the structure may take, the caller's own arrays not counted.
@@ -580,7 +580,8 @@ RW_API int32_t rw_scene_intersect_all_with(const rw_scene *scene, const rw_ray *
  * the rays, which is not checked.
  * options: struct_size set; NULL: the defaults.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
- * RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
+ * RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_OUT_OF_MEMORY,
+ * RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits,
                                         const rw_query_options *options);
 
@@ -661,7 +662,7 @@ typedef struct rw_view_options {
     double half_angle;   /* RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, below pi/2;
                               0: pi/4. Rays outside are answered as by the scene. */
     uint64_t count;      /* expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error */
-    int32_t ray_kind;    /* RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera */
+    int32_t ray_kind;    /* RW_RAYS_ kind, as a rule RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera */
     int32_t reserved;    /* 0 */
     const char *structure; /* forces a structure by name; NULL: the library chooses, the scene's own one included */
 } rw_view_options;
