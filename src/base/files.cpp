@@ -1,5 +1,7 @@
 #include "base/files.h"
 
+#include "base/descriptor.h"
+
 #include <cerrno>
 #include <new>
 
@@ -9,22 +11,6 @@
 namespace raywise {
 namespace {
 
-class Descriptor {
-public:
-    explicit Descriptor(const std::filesystem::path& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-        if (number_ < 0 && errno == ENOMEM) throw std::bad_alloc();
-    }
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
 // What a small file needs beyond its size, and what is read at once of one that does not tell its size, as in /proc.
 constexpr std::size_t spare_bytes = 4096;
 
@@ -32,7 +18,8 @@ constexpr std::size_t spare_bytes = 4096;
 
 ReadResult read_whole(const std::filesystem::path& path, std::string& content) {
     content.clear();
-    const Descriptor file(path);
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.number() < 0 && errno == ENOMEM) throw std::bad_alloc();
     if (file.number() < 0) return ReadResult::not_opened;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);

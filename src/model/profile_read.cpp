@@ -1,4 +1,5 @@
 // Reading a profile's file, which may be anything: missing, a folder, a pipe without a writer, a device without an end.
+#include "base/descriptor.h"
 #include "model/profile.h"
 
 #include <cerrno>
@@ -27,20 +28,6 @@ void demand_plain_file(const struct stat& facts) {
         fail(Status::PROFILE_UNREADABLE, "is over 1 MiB: " + std::to_string(facts.st_size) + " bytes");
     }
 }
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
 
 std::string read_text(const std::string& path) {
     // Looked at before it is opened, because opening alone can block on a pipe or move a device; and once more
