@@ -57,7 +57,7 @@ static const struct wrong_file {
     {"a.ply", PLY, RW_ERROR_FILE_FORMAT, "truncated|header"},
     {"a.ply", "ply\nformat ebcdic 1.0\nend_header\n", RW_ERROR_FILE_FORMAT, "unknown format|ebcdic"},
     {"a.ply", "ply\n" VERTEX_3 FACE_1 "end_header\n", RW_ERROR_FILE_FORMAT, "does not name the format"},
-    {"a.ply", PLY "element vertex\nend_header\n", RW_ERROR_FILE_FORMAT, "how many of element vertex"},
+    {"a.ply", PLY "element vertex\nend_header\n", RW_ERROR_FILE_FORMAT, "how many of element \"vertex\""},
     {"a.ply", PLY "property float x\nend_header\n", RW_ERROR_FILE_FORMAT, "before the first element"},
     {"a.ply", PLY "nonsense\nend_header\n", RW_ERROR_FILE_FORMAT, "unknown word|nonsense"},
     {"a.ply", PLY "element vertex 3\nproperty half x\nend_header\n", RW_ERROR_FILE_FORMAT, "unknown type|half"},
