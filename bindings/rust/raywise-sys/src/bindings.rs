@@ -1352,7 +1352,7 @@ RW_VIEW_POINT with a direction: radians from the direction to the farthest ray, 
     pub half_angle: f64,
     /// expected rays: 1 ... RW_RAYS_LIMIT or RW_RAYS_UNKNOWN; 0 is an error
     pub count: u64,
-    /// RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera
+    /// RW_RAYS_ kind, as a rule RW_RAYS_CAMERA or RW_RAYS_SHADOW; 0: camera
     pub ray_kind: i32,
     /// 0
     pub reserved: i32,
@@ -1680,8 +1680,8 @@ On an error the scene is as it was. Threads: alone with the scene. Since: 0.1.
 ```text
 Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
 expected: struct_size set; not NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY.
-Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
+RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1.
 ```
 */
     pub fn rw_scene_set_expected_rays(
@@ -1859,7 +1859,8 @@ rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it
 the rays, which is not checked.
 options: struct_size set; NULL: the defaults.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
-RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_OUT_OF_MEMORY,
+RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
 */
     pub fn rw_scene_intersect_batch(
