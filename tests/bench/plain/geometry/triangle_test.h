@@ -6,7 +6,7 @@
 
 #include "base/ray.h"
 #include "base/vec.h"
-#include "geometry/exact_determinant.h"
+#include "geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>
