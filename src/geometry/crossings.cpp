@@ -58,7 +58,8 @@ private:
 } // namespace
 
 void keep_crossings(const PreparedRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits) {
-    if (hits.size() < 2) return;
+    // The first hit stays; where no other may be on an edge there is nothing to decide.
+    if (hits.size() < 2 || std::none_of(hits.begin() + 1, hits.end(), may_be_on_edge)) return;
     const Corners first = primitives.corners(hits.front().primitive);
     const NudgedRay nudged(ray, first);
     hits.erase(std::remove_if(hits.begin() + 1, hits.end(),
