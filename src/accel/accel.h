@@ -41,6 +41,11 @@ struct BuildInput {
         progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
 };
 
+// A hit with the corners of what was hit, which whoever found it had at hand. They are set only where there is a hit.
+struct SurfaceHit : PrimitiveHit {
+    Corners corners;
+};
+
 // A built structure. Immutable: any number of threads may ask at the same time.
 //
 // The answers are those of the linear scan, bit for bit. A structure only decides which primitives to test, with
@@ -51,7 +56,7 @@ public:
     virtual ~Accel() = default;
 
     // The first hit in the order of PrimitiveHit, or no hit.
-    virtual PrimitiveHit closest(const PreparedRay& ray) const = 0;
+    virtual SurfaceHit closest(const PreparedRay& ray) const = 0;
     virtual bool any(const PreparedRay& ray) const = 0;
     // Every hit once, appended in any order.
     virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;

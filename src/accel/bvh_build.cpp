@@ -1,5 +1,7 @@
 #include "accel/bvh_build.h"
 
+#include "accel/scene_frame.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -227,7 +229,7 @@ private:
         references_.resize(primitives.hittable_count());
         if (references_.empty()) return;
 
-        tree_.center = choose_center(primitives.bounds());
+        tree_.center = SceneFrame::choose_center(primitives.bounds());
         for_chunks(0, count(), [&](std::uint32_t begin, std::uint32_t end) {
             for (std::uint32_t i = begin; i < end; ++i) {
                 const std::uint32_t primitive = hittable.empty() ? i : hittable[i];
@@ -241,13 +243,6 @@ private:
                 reference.primitive = primitive;
             }
         });
-    }
-
-    // Zero where it costs no more than three bits of float32's 24: there boxes of float32 geometry are exact.
-    static Vec3 choose_center(const Box& bounds) {
-        const double size = max_component(bounds.size());
-        const Vec3 center = bounds.center();
-        return max_component(glm::abs(center)) > 8.0 * size ? center : Vec3(0.0);
     }
 
     // Calls body(begin, end) for pieces of at most report_size, in parallel, and reports each.

@@ -11,7 +11,7 @@
 // and pruned; and of a cube's six planes only what reaches into a plane's pyramid is kept.
 #pragma once
 
-#include "accel/bvh.h"
+#include "accel/binary_traversal.h"
 #include "accel/bvh_build.h"
 #include "accel/projection.h"
 #include "accel/visitors.h"

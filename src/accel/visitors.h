@@ -87,10 +87,12 @@ class TraversedAccel : public Accel {
 public:
     explicit TraversedAccel(const Primitives& primitives) : primitives_(primitives) {}
 
-    PrimitiveHit closest(const PreparedRay& ray) const final {
+    SurfaceHit closest(const PreparedRay& ray) const final {
         ClosestVisitor visitor(primitives_, ray);
         derived().traverse(ray, visitor);
-        return visitor.best();
+        SurfaceHit hit{visitor.best(), {}};
+        if (hit.is_hit()) hit.corners = primitives_.corners(hit.primitive);
+        return hit;
     }
     bool any(const PreparedRay& ray) const final {
         AnyVisitor visitor(primitives_, ray);

@@ -62,8 +62,8 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) 
     if (hittable_count_ != count_) unhittable_ = std::move(unhittable);
 }
 
-Vec3 Primitives::normal(std::uint32_t primitive) const {
-    Vec3 n = scaled_normal(corners(primitive));
+Vec3 unit_normal(const Corners& corners) {
+    Vec3 n = scaled_normal(corners);
     const double largest = max_component(glm::abs(n));
     if (largest == 0.0) return Vec3(0.0);
     // Scaled again, so that the squares of a sliver's normal do not underflow.

@@ -35,6 +35,9 @@ struct PrimitiveId {
     std::uint32_t primitive;
 };
 
+// (v1 - v0) x (v2 - v0), of unit length; zero where the corners lie in one line.
+Vec3 unit_normal(const Corners& corners);
+
 class Primitives {
 public:
     // The meshes are kept. Counts degenerate triangles and finds the bounds of those that can be hit. Throws
@@ -74,8 +77,11 @@ public:
     // Whether the ray hits the primitive within [ray.tmin, ray.tmax], and does not skip it. The only way to a hit, for every
     // structure.
     bool test(const PreparedRay& ray, std::uint32_t primitive, PrimitiveHit& hit) const {
-        if (!is_hittable(primitive)) return false;
-        const Corners c = corners(primitive);
+        return is_hittable(primitive) && test_corners(ray, corners(primitive), primitive, hit);
+    }
+
+    // The same for a structure that has the corners, which have to be those of a hittable primitive.
+    static bool test_corners(const PreparedRay& ray, const Corners& c, std::uint32_t primitive, PrimitiveHit& hit) {
         TriangleHit found;
         if (!test_triangle(ray, c[0], c[1], c[2], found)) return false;
         if (!(ray.tmin <= found.t && found.t <= ray.tmax)) return false;
@@ -83,9 +89,6 @@ public:
         hit = {found.t, found.u, found.v, primitive};
         return true;
     }
-
-    // (v1 - v0) x (v2 - v0), of unit length.
-    Vec3 normal(std::uint32_t primitive) const;
 
 private:
     std::vector<std::shared_ptr<const TriangleMesh>> meshes_;

@@ -43,7 +43,7 @@ SurfacePoint on_surface(const Primitives& primitives, Random& random) {
     const Corners c = primitives.corners(primitive);
     const double root = std::sqrt(random());
     const double v = random() * root;
-    return {(1.0 - root) * c[0] + (root - v) * c[1] + v * c[2], primitives.normal(primitive)};
+    return {(1.0 - root) * c[0] + (root - v) * c[1] + v * c[2], unit_normal(c)};
 }
 
 } // namespace

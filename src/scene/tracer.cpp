@@ -16,17 +16,16 @@ bool Tracer::is_traceable(const Ray& ray) const {
     return false;
 }
 
-Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit) const {
+Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit, const Corners& corners) const {
     const PrimitiveId id = primitives_->locate(hit.primitive);
-    return {ray.to_caller(hit.t), hit.u,       hit.v,       primitives_->normal(hit.primitive),
-            invalid_id,           id.geometry, id.primitive};
+    return {ray.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
 }
 
 Hit Tracer::closest(const Ray& ray, SkipList skip) const {
     if (!is_traceable(ray)) return {};
     const PreparedRay prepared(ray, primitives_->bounds(), skip);
-    const PrimitiveHit hit = accel_->closest(prepared);
-    return hit.is_hit() ? to_caller(prepared, hit) : Hit{};
+    const SurfaceHit hit = accel_->closest(prepared);
+    return hit.is_hit() ? to_caller(prepared, hit, hit.corners) : Hit{};
 }
 
 bool Tracer::any(const Ray& ray, SkipList skip) const {
@@ -42,7 +41,7 @@ void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
     std::sort(found.begin(), found.end());
     keep_crossings(prepared, *primitives_, found);
     hits.reserve(found.size());
-    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(prepared, hit));
+    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(prepared, hit, primitives_->corners(hit.primitive)));
 }
 
 } // namespace raywise

@@ -1,5 +1,6 @@
 #include "accel/bvh.h"
 
+#include "accel/binary_traversal.h"
 #include "accel/bvh_testing.h"
 
 #include <algorithm>
@@ -100,14 +101,14 @@ TEST(Bvh, FarScenesKeepTheirDetail) {
     // Boxes of float32 at 5,000 km would all be the same; a ray would meet all of them.
     const Triangles triangles = soup(5000, 0.01, 7, 1e-2, Vec3(5e6, -5e6, 5e6));
     Scene scene(triangles);
-    const Bvh bvh(scene.input());
+    const BvhTree tree = build_bvh(scene.input());
     struct Counter {
         int count = 0;
         bool visit(std::uint32_t) { return ++count < 0; }
         double limit() const { return infinity; }
     } counter;
     const PreparedRay ray(ray_between(scene.bounds().lower, scene.bounds().upper), scene.bounds());
-    bvh.traverse(ray, counter);
+    traverse_boxes(tree, ray, counter);
     EXPECT_LT(counter.count, 500);
 }
 
@@ -120,7 +121,7 @@ TEST(Bvh, DegenerateTrianglesAreLeftOut) {
     triangles[7][1].x = std::numeric_limits<double>::quiet_NaN(); // skipped: invalid
     Scene scene(triangles);
     const Bvh bvh(scene.input());
-    EXPECT_EQ(bvh.tree().references.size(), scene.primitives().hittable_count());
+    EXPECT_EQ(build_bvh(scene.input()).references.size(), scene.primitives().hittable_count());
     triangles.erase(triangles.begin() + 7);
     for (int i = 0; i < 300; ++i) expect_same_with_intervals(scene, bvh, any_ray(triangles, scene.bounds(), random));
 }
@@ -163,7 +164,7 @@ TEST(Bvh, IdenticalTriangles) {
     const Corners corners = {Vec3(0.0), Vec3(1.0, 0.0, 0.5), Vec3(0.0, 1.0, 0.5)};
     Scene scene(Triangles(100000, corners));
     const Bvh bvh(scene.input());
-    const Shape shape = shape_of(bvh.tree());
+    const Shape shape = shape_of(build_bvh(scene.input()));
     EXPECT_LE(shape.depth, 20);
     EXPECT_LE(shape.largest_leaf, 16u);
     expect_same(scene, bvh, {Vec3(0.25, 0.25, -1.0), 0.0, Vec3(0.0, 0.0, 1.0), infinity});
@@ -182,7 +183,7 @@ TEST(Bvh, DepthIsBounded) {
     }
     Scene scene(triangles);
     const Bvh bvh(scene.input());
-    const Shape shape = shape_of(bvh.tree());
+    const Shape shape = shape_of(build_bvh(scene.input()));
     EXPECT_LE(shape.depth, bvh_max_depth);
     EXPECT_GT(shape.depth, bvh_max_depth / 2) << "the scene should have strained the bound";
     EXPECT_EQ(shape.references, triangles.size());
@@ -193,13 +194,13 @@ TEST(Bvh, DepthIsBounded) {
 TEST(Bvh, EveryPrimitiveIsInOneLeaf) {
     for (const std::size_t count : {1u, 2u, 17u, 5000u, 20000u}) {
         Scene scene(soup(count, 0.02, 16));
-        const Bvh bvh(scene.input());
-        std::vector<std::uint32_t> references = bvh.tree().references;
+        const BvhTree tree = build_bvh(scene.input());
+        std::vector<std::uint32_t> references = tree.references;
         std::sort(references.begin(), references.end());
         ASSERT_EQ(references.size(), count);
         for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(references[i], i);
-        EXPECT_EQ(shape_of(bvh.tree()).references, count);
-        EXPECT_LE(shape_of(bvh.tree()).largest_leaf, 16u);
+        EXPECT_EQ(shape_of(tree).references, count);
+        EXPECT_LE(shape_of(tree).largest_leaf, 16u);
     }
 }
 
@@ -207,11 +208,18 @@ TEST(Bvh, TheSameTreeForAnyNumberOfThreads) {
     const Triangles triangles = soup(60000, 0.01, 17);
     Scene one(triangles, 1);
     Scene many(triangles, 0);
-    const Bvh a(one.input());
-    const Bvh b(many.input());
-    ASSERT_EQ(a.tree().pairs.size(), b.tree().pairs.size());
-    EXPECT_EQ(std::memcmp(a.tree().pairs.data(), b.tree().pairs.data(), a.tree().pairs.size() * sizeof(BvhPair)), 0);
-    EXPECT_EQ(a.tree().references, b.tree().references);
+    const BvhTree a = build_bvh(one.input());
+    const BvhTree b = build_bvh(many.input());
+    ASSERT_EQ(a.pairs.size(), b.pairs.size());
+    EXPECT_EQ(std::memcmp(a.pairs.data(), b.pairs.data(), a.pairs.size() * sizeof(BvhPair)), 0);
+    EXPECT_EQ(a.references, b.references);
+    const Bvh wide_a(one.input());
+    const Bvh wide_b(many.input());
+    const WideBvh& c = wide_a.tree();
+    const WideBvh& d = wide_b.tree();
+    ASSERT_EQ(c.bytes(), d.bytes());
+    EXPECT_EQ(std::memcmp(c.nodes.data(), d.nodes.data(), c.nodes.bytes()), 0);
+    EXPECT_EQ(std::memcmp(c.words.data(), d.words.data(), c.words.bytes()), 0);
 }
 
 TEST(Bvh, ProgressRisesAndCancels) {

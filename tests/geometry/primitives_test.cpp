@@ -62,7 +62,7 @@ TEST(Primitives, AgreesWithTheJudgeOnWhatHasArea) {
         degenerate += no_area ? 1 : 0;
         EXPECT_EQ(primitives.degenerate_count(), no_area ? 1u : 0u) << i;
         EXPECT_EQ(primitives.is_hittable(0), !no_area);
-        const Vec3 normal = primitives.normal(0);
+        const Vec3 normal = unit_normal(primitives.corners(0));
         EXPECT_NEAR(std::sqrt(glm::dot(normal, normal)), no_area ? 0.0 : 1.0, 1e-14);
     }
     EXPECT_GT(degenerate, 3);
@@ -73,15 +73,15 @@ TEST(Primitives, SeesTheAreaOfExtremeNeedles) {
         const Scene needle{"needle", {{-1e38, 0, 0}, {1e38, 0, 0}, {0, thin, 0}}, {{0, 1, 2}}};
         const Primitives primitives = oracle::primitives_of(needle);
         EXPECT_EQ(primitives.degenerate_count(), 0u) << thin;
-        EXPECT_EQ(primitives.normal(0), Vec3(0, 0, 1)) << thin;
+        EXPECT_EQ(unit_normal(primitives.corners(0)), Vec3(0, 0, 1)) << thin;
     }
 }
 
 TEST(Primitives, NormalsFollowTheRightHand) {
     const Primitives primitives =
         oracle::primitives_of({"one", {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, {{0, 1, 2}, {0, 2, 1}}});
-    EXPECT_EQ(primitives.normal(0), Vec3(0, 0, 1));
-    EXPECT_EQ(primitives.normal(1), Vec3(0, 0, -1));
+    EXPECT_EQ(unit_normal(primitives.corners(0)), Vec3(0, 0, 1));
+    EXPECT_EQ(unit_normal(primitives.corners(1)), Vec3(0, 0, -1));
 }
 
 TEST(Primitives, BoundsHoldEveryBox) {

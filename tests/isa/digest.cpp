@@ -147,7 +147,7 @@ private:
         digest.add(ray.to_caller(hit.t));
         digest.add(hit.u);
         digest.add(hit.v);
-        digest.add(primitives_.normal(hit.primitive));
+        digest.add(unit_normal(primitives_.corners(hit.primitive)));
     }
 
     const Primitives& primitives_;

@@ -1,0 +1,49 @@
+// The coordinates in which structures keep a scene in float32: moved and scaled so that all of it lies in [-1, 1]^3.
+//
+// There one bound on rounding serves all scenes, and neither large nor tiny coordinates leave the range of float32.
+#pragma once
+
+#include "base/box.h"
+#include "base/vec.h"
+
+#include <cmath>
+
+namespace raywise {
+
+class SceneFrame {
+public:
+    SceneFrame() = default;
+    // bounds: of the scene, not empty.
+    explicit SceneFrame(const Box& bounds) : bounds_(bounds), center_(choose_center(bounds)) {
+        const double largest =
+            max_component(glm::max(glm::abs(bounds.lower - center_), glm::abs(bounds.upper - center_)));
+        // A scene smaller than 2^-900 stays small in its frame: the scale itself has to be a number.
+        const int exponent = largest > 0x1p-900 ? std::ilogb(largest) + 1 : -900;
+        scale_ = std::ldexp(1.0, -exponent);
+        inverse_scale_ = std::ldexp(1.0, exponent);
+    }
+
+    // Exact but for the difference, which rounds by 2^-53 of it, and for what is below the normal numbers then.
+    Vec3 to_frame(const Vec3& point) const { return (point - center_) * scale_; }
+    Vec3 from_frame(const Vec3& point) const { return point * inverse_scale_ + center_; }
+
+    double scale() const { return scale_; }       // a power of two
+    const Box& bounds() const { return bounds_; } // of the scene, in its own coordinates
+
+    // Zero where that costs no more than three bits of float32's 24: there float32 coordinates are kept without loss. Elsewhere
+    // the middle of the scene: float32 resolves 0.5 m at a distance of 5,000 km, so millimetre triangles that are kept in float64
+    // would all be alike.
+    static Vec3 choose_center(const Box& bounds) {
+        const double size = max_component(bounds.size());
+        const Vec3 center = bounds.center();
+        return max_component(glm::abs(center)) > 8.0 * size ? center : Vec3(0.0);
+    }
+
+private:
+    Box bounds_;
+    Vec3 center_{0.0};
+    double scale_ = 1.0;
+    double inverse_scale_ = 1.0;
+};
+
+} // namespace raywise

@@ -1,0 +1,252 @@
+// From the binary tree to the wide one: a node takes in its descendants, the largest first, until it has eight children.
+#include "accel/wide_bvh.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+#include <vector>
+
+namespace raywise {
+namespace {
+
+// A subtree of so few triangles becomes a leaf: eight are tested in one go, and two halves of a full block are seldom full.
+constexpr std::uint32_t leaf_size = 6;
+
+// Subtrees up to this size are widened by one thread each, what is above them by one alone. It depends on nothing but the scene, and
+// neither does the order of the nodes therefore.
+constexpr std::uint32_t job_size = 16384;
+
+// A node of the binary tree, and the references below it.
+struct Subtree {
+    const BvhNode* node;
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+// How many references are below each node.
+class Extents {
+public:
+    explicit Extents(const BvhTree& tree) : tree_(tree), of_pair_(tree.pairs.size()) {
+        // A pair's index is above that of the pair its parent is in.
+        for (std::size_t i = tree.pairs.size(); i-- > 0;) {
+            const Subtree left = of(tree.pairs[i].child[0]);
+            const Subtree right = of(tree.pairs[i].child[1]);
+            of_pair_[i] = {left.first, left.count + right.count};
+        }
+    }
+    Subtree of(const BvhNode& node) const {
+        if (node.is_leaf()) return {&node, node.first, node.count};
+        return {&node, of_pair_[node.first].first, of_pair_[node.first].count};
+    }
+    Subtree child(const BvhNode& node, int i) const { return of(tree_.pairs[node.first].child[i]); }
+
+private:
+    struct Extent {
+        std::uint32_t first;
+        std::uint32_t count;
+    };
+
+    const BvhTree& tree_;
+    std::vector<Extent> of_pair_;
+};
+
+double half_area(const BvhNode& node) {
+    const double x = static_cast<double>(node.planes[1][0]) - static_cast<double>(node.planes[0][0]);
+    const double y = static_cast<double>(node.planes[1][1]) - static_cast<double>(node.planes[0][1]);
+    const double z = static_cast<double>(node.planes[1][2]) - static_cast<double>(node.planes[0][2]);
+    return x * y + y * z + z * x;
+}
+
+using Children = std::vector<Subtree>;
+
+class Widener {
+public:
+    Widener(const BvhTree& tree, const BuildInput& input, double progress_begin)
+        : tree_(tree), input_(input), progress_begin_(progress_begin), extents_(tree) {}
+
+    WideBvh run() {
+        if (tree_.empty()) return std::move(bvh_);
+        bvh_.frame = SceneFrame(input_.primitives.bounds());
+        const std::size_t words = words_per_triangle * tree_.references.size();
+        bvh_.words = PageArray<BlockWord>(words + block_size);
+        std::fill_n(bvh_.words.data() + words, block_size, BlockWord{0.0f});
+
+        top_.emplace_back();
+        make_top(0, extents_.of(tree_.root));
+        input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
+            Job& job = jobs_[i];
+            job.nodes.reserve(job.root.count / 16 + 1);
+            job.nodes.emplace_back();
+            make_node(job.nodes, 0, job.root);
+            const double part =
+                static_cast<double>(done_ += job.root.count) / static_cast<double>(tree_.references.size());
+            input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
+        });
+        assemble();
+        bvh_.exact = exact_;
+        return std::move(bvh_);
+    }
+
+private:
+    // A subtree that a thread widens alone. Its nodes are numbered from 0 until all are assembled.
+    struct Job {
+        Subtree root;
+        std::uint32_t parent; // the top node it hangs below, and as which child
+        std::uint32_t child;
+        std::vector<WideNode> nodes;
+    };
+
+    void make_top(std::uint32_t index, const Subtree& subtree) {
+        const Children children = choose_children(subtree);
+        top_[index] = boxes_of(children);
+        for (std::uint32_t i = 0; i < children.size(); ++i) {
+            const Subtree& child = children[i];
+            if (is_leaf(child)) {
+                set_leaf(top_[index], i, child);
+            } else if (child.count <= job_size) {
+                jobs_.push_back({child, index, i, {}});
+            } else {
+                const auto next = static_cast<std::uint32_t>(top_.size());
+                top_.emplace_back();
+                top_[index].child[i] = next;
+                make_top(next, child);
+            }
+        }
+    }
+
+    // Siblings lie side by side.
+    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree) {
+        const Children children = choose_children(subtree);
+        nodes[index] = boxes_of(children);
+        auto next = static_cast<std::uint32_t>(nodes.size());
+        for (std::uint32_t i = 0; i < children.size(); ++i) {
+            if (is_leaf(children[i])) {
+                set_leaf(nodes[index], i, children[i]);
+            } else {
+                nodes[index].child[i] = next++;
+            }
+        }
+        nodes.resize(next);
+        for (std::uint32_t i = 0; i < children.size(); ++i) {
+            if (nodes[index].triangles[i] == 0) make_node(nodes, nodes[index].child[i], children[i]);
+        }
+    }
+
+    static bool is_leaf(const Subtree& subtree) { return subtree.count <= leaf_size || subtree.node->is_leaf(); }
+
+    // What costs a ray most is opened first: inner nodes by their area, and while there is room leaves, by their area times the number
+    // of triangles, which are then split in two.
+    Children choose_children(const Subtree& subtree) const {
+        Children children;
+        children.reserve(wide_bvh_width);
+        children.push_back(subtree);
+        while (children.size() < wide_bvh_width) {
+            std::size_t best = children.size();
+            bool best_is_leaf = true;
+            double best_cost = -1.0;
+            for (std::size_t i = 0; i < children.size(); ++i) {
+                const Subtree& child = children[i];
+                if (child.node->is_leaf()) continue;
+                const bool leaf = is_leaf(child);
+                const double cost = half_area(*child.node) * (leaf ? child.count : 1.0);
+                if (leaf == best_is_leaf ? cost > best_cost : best_is_leaf) {
+                    best = i;
+                    best_is_leaf = leaf;
+                    best_cost = cost;
+                }
+            }
+            if (best == children.size()) break;
+            const BvhNode& opened = *children[best].node;
+            children[best] = extents_.child(opened, 0);
+            children.push_back(extents_.child(opened, 1));
+        }
+        return children;
+    }
+
+    WideNode boxes_of(const Children& children) const {
+        WideNode node{};
+        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                node.planes[0][axis][i] = absent_plane;
+                node.planes[1][axis][i] = -absent_plane;
+                if (i >= children.size()) continue;
+                // The tree's boxes are relative to the frame's center already.
+                const auto& planes = children[i].node->planes;
+                node.planes[0][axis][i] = round_down(static_cast<double>(planes[0][axis]) * bvh_.frame.scale());
+                node.planes[1][axis][i] = round_up(static_cast<double>(planes[1][axis]) * bvh_.frame.scale());
+            }
+        }
+        return node;
+    }
+
+    void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf) {
+        node.child[i] = leaf.first;
+        node.triangles[i] = leaf.count;
+        bool exact = true;
+        for (std::uint32_t begin = 0; begin < leaf.count; begin += block_size) {
+            const std::uint32_t n = std::min(block_size, leaf.count - begin);
+            exact = gather_block(leaf.first + begin, n) && exact;
+        }
+        if (!exact) exact_ = false;
+    }
+
+    // Returns whether the coordinates can be had back.
+    bool gather_block(std::uint32_t first, std::uint32_t n) {
+        BlockWord* const block = bvh_.words.data() + words_per_triangle * first;
+        bool exact = true;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t primitive = tree_.references[first + i];
+            const Corners corners = input_.primitives.corners(primitive);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const Vec3 p = bvh_.frame.to_frame(corners[k]);
+                for (int axis = 0; axis < 3; ++axis)
+                    block[(3 * k + static_cast<std::uint32_t>(axis)) * n + i].coordinate = static_cast<float>(p[axis]);
+                exact = exact && block_corner(bvh_, block, n, i, k) == corners[k];
+            }
+            block[9 * n + i].primitive = primitive;
+        }
+        return exact;
+    }
+
+    void assemble() {
+        std::vector<std::uint32_t> offsets;
+        offsets.reserve(jobs_.size());
+        std::size_t total = top_.size();
+        for (const Job& job : jobs_) {
+            offsets.push_back(static_cast<std::uint32_t>(total));
+            top_[job.parent].child[job.child] = offsets.back();
+            total += job.nodes.size();
+        }
+        bvh_.nodes = PageArray<WideNode>(total);
+        std::copy(top_.begin(), top_.end(), bvh_.nodes.begin());
+        input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
+            WideNode* const nodes = bvh_.nodes.data() + offsets[i];
+            std::copy(jobs_[i].nodes.begin(), jobs_[i].nodes.end(), nodes);
+            for (std::size_t k = 0; k < jobs_[i].nodes.size(); ++k) {
+                for (std::uint32_t c = 0; c < wide_bvh_width; ++c) {
+                    if (nodes[k].triangles[c] == 0) nodes[k].child[c] += offsets[i];
+                }
+            }
+            jobs_[i].nodes = {};
+        });
+    }
+
+    const BvhTree& tree_;
+    const BuildInput& input_;
+    const double progress_begin_;
+    const Extents extents_;
+    WideBvh bvh_;
+    std::vector<WideNode> top_;
+    std::vector<Job> jobs_;
+    std::atomic<bool> exact_{true};
+    std::atomic<std::uint64_t> done_{0};
+};
+
+} // namespace
+
+WideBvh widen(const BvhTree& tree, const BuildInput& input, double progress_begin) {
+    return Widener(tree, input, progress_begin).run();
+}
+
+} // namespace raywise

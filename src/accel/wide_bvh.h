@@ -1,0 +1,61 @@
+// A bounding volume hierarchy with eight children to a node, and triangles in blocks of at most eight: what a vector register
+// compares at once (Wald, Benthin, Boulos 2008, "Getting Rid of Packets"; Dammertz, Hanika, Keller 2008, "Shallow Bounding Volume
+// Hierarchies").
+#pragma once
+
+#include "accel/bvh_build.h"
+#include "accel/scene_frame.h"
+#include "base/page_array.h"
+#include "geometry/primitives.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace raywise {
+
+inline constexpr std::uint32_t wide_bvh_width = 8;
+
+// Four cache lines: eight boxes in the coordinates of the frame, rounded outwards, and what is in them. An absent child's box has its
+// planes in the wrong order, so far apart that no ray meets it.
+struct alignas(64) WideNode {
+    float planes[2][3][wide_bvh_width]; // lower and upper, for each axis
+    // Inner: the child's index. Leaf: the place of its first triangle among all.
+    std::uint32_t child[wide_bvh_width];
+    std::uint32_t triangles[wide_bvh_width]; // of a leaf; 0: not a leaf
+};
+static_assert(sizeof(WideNode) == 256);
+
+inline constexpr float absent_plane = 0x1p100f; // lower; upper is its negative
+
+// Triangles lie in the order of the leaves. Each leaf is cut into blocks of eight triangles and a last one of n <= 8; a block is nine
+// lines of n coordinates, x y z of the first corners, then of the second and the third, and a line of n primitive numbers. So
+// triangles take ten words each, and a block of a leaf that begins at triangle f begins at word 10 f.
+inline constexpr std::size_t words_per_triangle = 10;
+inline constexpr std::uint32_t block_size = 8;
+
+union BlockWord {
+    float coordinate;
+    std::uint32_t primitive;
+};
+
+struct WideBvh {
+    SceneFrame frame;
+    PageArray<WideNode> nodes;  // the root first; none when nothing can be hit
+    PageArray<BlockWord> words; // and as many more as a vector reads beyond the last block
+    bool exact = false;         // whether frame.from_frame gives every corner back without loss
+
+    std::size_t bytes() const { return nodes.bytes() + words.bytes(); }
+};
+
+// Corner k of triangle i of a block of n.
+inline Vec3 block_corner(const WideBvh& bvh, const BlockWord* block, std::uint32_t n, std::uint32_t i,
+                         std::uint32_t k) {
+    const BlockWord* const x = block + 3 * k * n + i;
+    return bvh.frame.from_frame({static_cast<double>(x[0].coordinate), static_cast<double>(x[n].coordinate),
+                                 static_cast<double>(x[2 * n].coordinate)});
+}
+
+// Makes it of a binary tree. Reports progress from progress_begin to 1.
+WideBvh widen(const BvhTree& tree, const BuildInput& input, double progress_begin);
+
+} // namespace raywise
