@@ -152,14 +152,6 @@ HitArrays read_hits(const rw_hits* source, std::uint64_t count) {
     return arrays;
 }
 
-Ray read_ray(const rw_ray* source) {
-    const rw_ray& ray = required(source, "ray");
-    return {{ray.origin[0], ray.origin[1], ray.origin[2]},
-            ray.tmin,
-            {ray.direction[0], ray.direction[1], ray.direction[2]},
-            ray.tmax};
-}
-
 std::vector<std::uint32_t> read_skips(const rw_ray_options* source, const Primitives& primitives) {
     const rw_ray_options options = read_optional_struct(source, "options");
     if (options.skip_count > 0 && options.skip == nullptr) throw null_argument("options.skip");
@@ -177,11 +169,6 @@ std::vector<std::uint32_t> read_skips(const rw_ray_options* source, const Primit
         numbers.push_back(entry.number(primitives, "options.skip", i));
     }
     return numbers;
-}
-
-rw_hit write_hit(const Hit& hit) {
-    return {hit.t,        hit.u,        hit.v,         {hit.normal.x, hit.normal.y, hit.normal.z},
-            hit.instance, hit.geometry, hit.primitive, 0};
 }
 
 Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name) {

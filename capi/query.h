@@ -8,7 +8,8 @@ namespace raywise::capi {
 
 inline void intersect(const Tracer& tracer, const rw_ray* ray, rw_hit* hit) {
     const Ray r = read_ray(ray);
-    required(hit, "hit") = write_hit(tracer.closest(r));
+    rw_hit& out = required(hit, "hit");
+    write_hit(tracer.closest(r), out);
 }
 
 inline void occluded(const Tracer& tracer, const rw_ray* ray, std::int32_t* answer) {

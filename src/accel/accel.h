@@ -58,6 +58,9 @@ public:
     // The first hit in the order of PrimitiveHit, or no hit.
     virtual SurfaceHit closest(const PreparedRay& ray) const = 0;
     virtual bool any(const PreparedRay& ray) const = 0;
+    // The same for a ray that nobody has prepared; t is scaled in the answer too.
+    virtual SurfaceHit closest(const UnpreparedRay& ray) const { return closest(ray.prepare()); }
+    virtual bool any(const UnpreparedRay& ray) const { return any(ray.prepare()); }
     // Every hit once, appended in any order.
     virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
 

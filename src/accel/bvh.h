@@ -15,6 +15,8 @@ public:
 
     SurfaceHit closest(const PreparedRay& ray) const override;
     bool any(const PreparedRay& ray) const override;
+    SurfaceHit closest(const UnpreparedRay& ray) const override;
+    bool any(const UnpreparedRay& ray) const override;
     void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }

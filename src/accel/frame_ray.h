@@ -27,20 +27,21 @@
 #include "accel/scene_frame.h"
 #include "base/ray.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace raywise {
 
 class FrameRay {
 public:
-    FrameRay(const PreparedRay& ray, const SceneFrame& frame) : scale_(frame.scale()) {
+    FrameRay(const PreparedRay& ray, const SceneFrame& frame) {
+        begin_at_origin(frame.scale(), 0.0);
         Vec3 start = frame.to_frame(ray.origin);
-        const double far = max_component(glm::abs(start));
+        const double far = max_component(magnitudes(start));
         // Farther away float64 does not tell where the ray meets the scene; nor does infinity.
         if (!(far < 0x1p58)) {
-            know_nothing();
+            know_nothing(ray);
             return;
         }
         if (far > 4.0) {
@@ -52,23 +53,23 @@ public:
             start_ = near * scale_;
             start += start_ * ray.direction;
         }
-        const double local = std::max(1.0, max_component(glm::abs(start)));
+        const double local = larger(1.0, max_component(magnitudes(start)));
         const double shift = 0x1p-20 * local + 0x1p-48 * far;
         margin_ = 0x1p-18 * (1.0 + local) + ray.margin * scale_;
         if (!(margin_ < 0x1p50)) {
-            know_nothing();
+            know_nothing(ray);
             return;
         }
+        backwards = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            inverse[axis] = static_cast<float>(std::clamp(ray.inverse[axis], -0x1p60, 0x1p60));
-            const bool negative = std::signbit(inverse[axis]);
-            backwards[axis] = negative ? 1 : 0;
+            inverse[axis] = static_cast<float>(larger(smaller(ray.inverse[axis], 0x1p60), -0x1p60));
+            if (std::signbit(inverse[axis])) backwards |= 1u << axis;
             const auto rounded = static_cast<double>(inverse[axis]);
-            const double apart = negative ? -shift : shift;
+            const double apart = std::copysign(shift, rounded);
             entry_offset[axis] = static_cast<float>((start[axis] + apart) * rounded + 0.5 * margin_);
             exit_offset[axis] = static_cast<float>((start[axis] - apart) * rounded - 0.5 * margin_);
         }
-        first = interval_end(ray.tmin, -0.5);
+        set_interval(ray.tmin, ray.tmax);
 
         x_axis = ray.x_axis;
         y_axis = ray.y_axis;
@@ -89,11 +90,12 @@ public:
     float last(double limit) const { return interval_end(limit, 0.5); }
 
     // The distance of a plane p on an axis: p * inverse - offset.
-    float inverse[3];
-    float entry_offset[3];
-    float exit_offset[3];
-    int backwards[3]; // 1 where the ray enters through the upper plane
-    float first;      // the s before which no hit lies
+    alignas(16) float inverse[4]; // the last of each is not used
+    alignas(16) float entry_offset[4];
+    alignas(16) float exit_offset[4];
+    std::uint32_t backwards; // a bit for each axis on which the ray enters through the upper plane
+    float first;                 // the s before which no hit lies
+    float last_of_ray;           // last(tmax)
 
     // For triangles, as the members of PreparedRay; z is the major axis.
     int x_axis;
@@ -106,6 +108,19 @@ public:
     float shear_y;
     float inverse_z;
     float corner_error; // of a sheared coordinate, at most
+
+    // For frame_ray-inl.h, which sets the members itself.
+    FrameRay() = default;
+    void begin_at_origin(double scale, double margin) {
+        scale_ = scale;
+        start_ = 0.0;
+        margin_ = margin;
+        misses_ = false;
+    }
+    void set_interval(double tmin, double tmax) {
+        first = interval_end(tmin, -0.5);
+        last_of_ray = interval_end(tmax, 0.5);
+    }
 
 private:
     static constexpr float unbounded = std::numeric_limits<float>::max();
@@ -120,15 +135,15 @@ private:
 
     // Everything is visited: any plane in the frame is passed at -2^50 or 2^50, while those of absent boxes stay in the wrong order
     // (wide_bvh.h); and no triangle is left out.
-    void know_nothing() {
+    void know_nothing(const PreparedRay& ray) {
         margin_ = std::numeric_limits<double>::infinity();
+        backwards = 0;
         for (int axis = 0; axis < 3; ++axis) {
             inverse[axis] = 0x1p-40f;
             entry_offset[axis] = 0x1p50f;
             exit_offset[axis] = -0x1p50f;
-            backwards[axis] = 0;
         }
-        first = -unbounded;
+        set_interval(ray.tmin, ray.tmax);
         x_axis = 0;
         y_axis = 1;
         z_axis = 2;
@@ -138,9 +153,9 @@ private:
     }
 
     double scale_;
-    double start_ = 0.0;
-    double margin_ = 0.0;
-    bool misses_ = false;
+    double start_;
+    double margin_;
+    bool misses_;
 };
 
 } // namespace raywise

@@ -14,9 +14,10 @@ class SceneFrame {
 public:
     SceneFrame() = default;
     // bounds: of the scene, not empty.
-    explicit SceneFrame(const Box& bounds) : bounds_(bounds), center_(choose_center(bounds)) {
-        const double largest =
-            max_component(glm::max(glm::abs(bounds.lower - center_), glm::abs(bounds.upper - center_)));
+    explicit SceneFrame(const Box& bounds) : bounds_(bounds) {
+        const Vec3 center = choose_center(bounds);
+        for (int axis = 0; axis < 3; ++axis) center_[axis] = center[axis];
+        const double largest = max_component(larger(magnitudes(bounds.lower - center), magnitudes(bounds.upper - center)));
         // A scene smaller than 2^-900 stays small in its frame: the scale itself has to be a number.
         const int exponent = largest > 0x1p-900 ? std::ilogb(largest) + 1 : -900;
         scale_ = std::ldexp(1.0, -exponent);
@@ -24,10 +25,11 @@ public:
     }
 
     // Exact but for the difference, which rounds by 2^-53 of it, and for what is below the normal numbers then.
-    Vec3 to_frame(const Vec3& point) const { return (point - center_) * scale_; }
-    Vec3 from_frame(const Vec3& point) const { return point * inverse_scale_ + center_; }
+    Vec3 to_frame(const Vec3& point) const { return (point - center()) * scale_; }
+    Vec3 from_frame(const Vec3& point) const { return point * inverse_scale_ + center(); }
 
     double scale() const { return scale_; }       // a power of two
+    const double* center4() const { return center_; } // x y z, and a zero
     const Box& bounds() const { return bounds_; } // of the scene, in its own coordinates
 
     // Zero where that costs no more than three bits of float32's 24: there float32 coordinates are kept without loss. Elsewhere
@@ -40,8 +42,10 @@ public:
     }
 
 private:
+    Vec3 center() const { return {center_[0], center_[1], center_[2]}; }
+
     Box bounds_;
-    Vec3 center_{0.0};
+    double center_[4] = {0.0, 0.0, 0.0, 0.0};
     double scale_ = 1.0;
     double inverse_scale_ = 1.0;
 };

@@ -87,6 +87,9 @@ class TraversedAccel : public Accel {
 public:
     explicit TraversedAccel(const Primitives& primitives) : primitives_(primitives) {}
 
+    using Accel::any;
+    using Accel::closest;
+
     SurfaceHit closest(const PreparedRay& ray) const final {
         ClosestVisitor visitor(primitives_, ray);
         derived().traverse(ray, visitor);

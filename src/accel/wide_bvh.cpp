@@ -109,7 +109,7 @@ private:
             } else {
                 const auto next = static_cast<std::uint32_t>(top_.size());
                 top_.emplace_back();
-                top_[index].child[i] = next;
+                top_[index].child[i] = WideReference::node(next);
                 make_top(next, child);
             }
         }
@@ -124,12 +124,13 @@ private:
             if (is_leaf(children[i])) {
                 set_leaf(nodes[index], i, children[i]);
             } else {
-                nodes[index].child[i] = next++;
+                nodes[index].child[i] = WideReference::node(next++);
             }
         }
         nodes.resize(next);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
-            if (nodes[index].triangles[i] == 0) make_node(nodes, nodes[index].child[i], children[i]);
+            const WideReference child = nodes[index].child[i];
+            if (!child.is_leaf()) make_node(nodes, child.index(), children[i]);
         }
     }
 
@@ -168,21 +169,20 @@ private:
         WideNode node{};
         for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
             for (int axis = 0; axis < 3; ++axis) {
-                node.planes[0][axis][i] = absent_plane;
-                node.planes[1][axis][i] = -absent_plane;
+                node.planes[axis][0][i] = absent_plane;
+                node.planes[axis][1][i] = -absent_plane;
                 if (i >= children.size()) continue;
                 // The tree's boxes are relative to the frame's center already.
                 const auto& planes = children[i].node->planes;
-                node.planes[0][axis][i] = round_down(static_cast<double>(planes[0][axis]) * bvh_.frame.scale());
-                node.planes[1][axis][i] = round_up(static_cast<double>(planes[1][axis]) * bvh_.frame.scale());
+                node.planes[axis][0][i] = round_down(static_cast<double>(planes[0][axis]) * bvh_.frame.scale());
+                node.planes[axis][1][i] = round_up(static_cast<double>(planes[1][axis]) * bvh_.frame.scale());
             }
         }
         return node;
     }
 
     void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf) {
-        node.child[i] = leaf.first;
-        node.triangles[i] = leaf.count;
+        node.child[i] = WideReference::leaf(leaf.first, leaf.count);
         bool exact = true;
         for (std::uint32_t begin = 0; begin < leaf.count; begin += block_size) {
             const std::uint32_t n = std::min(block_size, leaf.count - begin);
@@ -202,9 +202,9 @@ private:
                 const Vec3 p = bvh_.frame.to_frame(corners[k]);
                 for (int axis = 0; axis < 3; ++axis)
                     block[(3 * k + static_cast<std::uint32_t>(axis)) * n + i].coordinate = static_cast<float>(p[axis]);
-                exact = exact && block_corner(bvh_, block, n, i, k) == corners[k];
             }
             block[9 * n + i].primitive = primitive;
+            exact = exact && BlockTriangle{block, n, i}.corners(bvh_.frame) == corners;
         }
         return exact;
     }
@@ -215,7 +215,7 @@ private:
         std::size_t total = top_.size();
         for (const Job& job : jobs_) {
             offsets.push_back(static_cast<std::uint32_t>(total));
-            top_[job.parent].child[job.child] = offsets.back();
+            top_[job.parent].child[job.child] = WideReference::node(offsets.back());
             total += job.nodes.size();
         }
         bvh_.nodes = PageArray<WideNode>(total);
@@ -224,8 +224,8 @@ private:
             WideNode* const nodes = bvh_.nodes.data() + offsets[i];
             std::copy(jobs_[i].nodes.begin(), jobs_[i].nodes.end(), nodes);
             for (std::size_t k = 0; k < jobs_[i].nodes.size(); ++k) {
-                for (std::uint32_t c = 0; c < wide_bvh_width; ++c) {
-                    if (nodes[k].triangles[c] == 0) nodes[k].child[c] += offsets[i];
+                for (WideReference& child : nodes[k].child) {
+                    if (!child.is_leaf()) child = WideReference::node(child.index() + offsets[i]);
                 }
             }
             jobs_[i].nodes = {};

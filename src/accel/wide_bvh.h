@@ -15,13 +15,31 @@ namespace raywise {
 
 inline constexpr std::uint32_t wide_bvh_width = 8;
 
+// What a child of a node is, in one word: a node by its index, or a leaf by the place of its first triangle among all and their
+// number.
+class WideReference {
+public:
+    WideReference() = default;
+    static WideReference node(std::uint32_t index) { return WideReference(index); }
+    static WideReference leaf(std::uint32_t first, std::uint32_t triangles) {
+        return WideReference(std::uint64_t{triangles} << 32 | first);
+    }
+
+    bool is_leaf() const { return bits_ >> 32 != 0; }
+    std::uint32_t index() const { return static_cast<std::uint32_t>(bits_); } // of the node, or of the first triangle
+    std::uint32_t triangles() const { return static_cast<std::uint32_t>(bits_ >> 32); }
+
+private:
+    explicit WideReference(std::uint64_t bits) : bits_(bits) {}
+
+    std::uint64_t bits_;
+};
+
 // Four cache lines: eight boxes in the coordinates of the frame, rounded outwards, and what is in them. An absent child's box has its
 // planes in the wrong order, so far apart that no ray meets it.
 struct alignas(64) WideNode {
-    float planes[2][3][wide_bvh_width]; // lower and upper, for each axis
-    // Inner: the child's index. Leaf: the place of its first triangle among all.
-    std::uint32_t child[wide_bvh_width];
-    std::uint32_t triangles[wide_bvh_width]; // of a leaf; 0: not a leaf
+    float planes[3][2][wide_bvh_width]; // on each axis: lower and upper
+    WideReference child[wide_bvh_width];
 };
 static_assert(sizeof(WideNode) == 256);
 
@@ -45,15 +63,27 @@ struct WideBvh {
     bool exact = false;         // whether frame.from_frame gives every corner back without loss
 
     std::size_t bytes() const { return nodes.bytes() + words.bytes(); }
+    // The block that begins with a triangle.
+    const BlockWord* block(std::size_t triangle) const { return &words[words_per_triangle * triangle]; }
 };
 
-// Corner k of triangle i of a block of n.
-inline Vec3 block_corner(const WideBvh& bvh, const BlockWord* block, std::uint32_t n, std::uint32_t i,
-                         std::uint32_t k) {
-    const BlockWord* const x = block + 3 * k * n + i;
-    return bvh.frame.from_frame({static_cast<double>(x[0].coordinate), static_cast<double>(x[n].coordinate),
+// Triangle i of a block of n.
+struct BlockTriangle {
+    const BlockWord* block;
+    std::uint32_t n;
+    std::uint32_t i;
+
+    std::uint32_t primitive() const { return block[9 * n + i].primitive; }
+    // As good as float32 tells: see WideBvh::exact.
+    Corners corners(const SceneFrame& frame) const { return {corner(frame, 0), corner(frame, 1), corner(frame, 2)}; }
+
+private:
+    Vec3 corner(const SceneFrame& frame, std::uint32_t k) const {
+        const BlockWord* const x = block + 3 * k * n + i;
+        return frame.from_frame({static_cast<double>(x[0].coordinate), static_cast<double>(x[n].coordinate),
                                  static_cast<double>(x[2 * n].coordinate)});
-}
+    }
+};
 
 // Makes it of a binary tree. Reports progress from progress_begin to 1.
 WideBvh widen(const BvhTree& tree, const BuildInput& input, double progress_begin);

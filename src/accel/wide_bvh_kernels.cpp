@@ -1,38 +1,85 @@
 #include "accel/wide_bvh_kernels.h"
 
+#include <optional>
+
 // This file is read once for each target, and the kernels compiled for it.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/wide_bvh_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "accel/frame_ray-inl.h"
 #include "accel/wide_traversal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace {
 
+// A ray that is prepared when a triangle has to be tested exactly, which half of all rays never come to.
+class LazyRay {
+public:
+    explicit LazyRay(const PreparedRay& ray) : prepared_(&ray) {}
+    explicit LazyRay(const UnpreparedRay& ray) : unprepared_(&ray) {}
+
+    HWY_INLINE const PreparedRay& prepared() {
+        if (prepared_ == nullptr) prepared_ = &storage_.emplace(unprepared_->ray, unprepared_->bounds, unprepared_->skip);
+        return *prepared_;
+    }
+
+private:
+    const UnpreparedRay* unprepared_ = nullptr;
+    const PreparedRay* prepared_ = nullptr;
+    std::optional<PreparedRay> storage_;
+};
+
+// What all three questions ask of a triangle that may be hit.
+class ExactTest {
+public:
+    template <class AnyRay>
+    ExactTest(const WideBvhScene& scene, const AnyRay& ray) : scene_(scene), ray_(ray) {}
+
+    HWY_INLINE bool operator()(const BlockTriangle& triangle, PrimitiveHit& hit) {
+        return Primitives::test_corners(ray_.prepared(), corners(triangle), triangle.primitive(), hit);
+    }
+    HWY_INLINE Corners corners(const BlockTriangle& triangle) const {
+        return scene_.bvh.exact ? triangle.corners(scene_.bvh.frame) : scene_.primitives.corners(triangle.primitive());
+    }
+
+private:
+    const WideBvhScene& scene_;
+    LazyRay ray_;
+};
+
 class ClosestSink {
 public:
     static constexpr bool in_order = true;
 
-    ClosestSink(const PreparedRay& ray, const FrameRay& frame_ray, SurfaceHit& best)
-        : ray_(ray), frame_ray_(frame_ray), best_(best), last_(frame_ray.last(ray.tmax)) {}
+    template <class AnyRay>
+    ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const FrameRay& frame_ray, SurfaceHit& best)
+        : test_(scene, ray), frame_ray_(frame_ray), best_(best), last_(frame_ray.last_of_ray) {}
 
-    HWY_INLINE bool test(const Corners& corners, std::uint32_t primitive) {
+    HWY_INLINE bool test(const BlockTriangle& triangle) {
         PrimitiveHit hit;
-        if (Primitives::test_corners(ray_, corners, primitive, hit) && hit < best_) {
-            best_ = {hit, corners};
+        if (test_(triangle, hit) && hit < best_) {
+            best_.t = hit.t; // member by member: a copy of what was just written would take long
+            best_.u = hit.u;
+            best_.v = hit.v;
+            best_.primitive = hit.primitive;
+            triangle_ = triangle;
             last_ = frame_ray_.last(hit.t);
         }
         return false;
     }
     float last() const { return last_; }
+    void add_corners() {
+        if (best_.is_hit()) best_.corners = test_.corners(triangle_);
+    }
 
 private:
-    const PreparedRay& ray_;
+    ExactTest test_;
     const FrameRay& frame_ray_;
     SurfaceHit& best_;
+    BlockTriangle triangle_;
     float last_;
 };
 
@@ -40,16 +87,17 @@ class AnySink {
 public:
     static constexpr bool in_order = false;
 
-    AnySink(const PreparedRay& ray, const FrameRay& frame_ray) : ray_(ray), last_(frame_ray.last(ray.tmax)) {}
+    template <class AnyRay>
+    AnySink(const WideBvhScene& scene, const AnyRay& ray, float last) : test_(scene, ray), last_(last) {}
 
-    HWY_INLINE bool test(const Corners& corners, std::uint32_t primitive) {
+    HWY_INLINE bool test(const BlockTriangle& triangle) {
         PrimitiveHit hit;
-        return Primitives::test_corners(ray_, corners, primitive, hit);
+        return test_(triangle, hit);
     }
     float last() const { return last_; }
 
 private:
-    const PreparedRay& ray_;
+    ExactTest test_;
     float last_;
 };
 
@@ -57,43 +105,56 @@ class AllSink {
 public:
     static constexpr bool in_order = false;
 
-    AllSink(const PreparedRay& ray, const FrameRay& frame_ray, std::vector<PrimitiveHit>& hits)
-        : ray_(ray), hits_(hits), last_(frame_ray.last(ray.tmax)) {}
+    AllSink(const WideBvhScene& scene, const PreparedRay& ray, float last, std::vector<PrimitiveHit>& hits)
+        : test_(scene, ray), hits_(hits), last_(last) {}
 
-    bool test(const Corners& corners, std::uint32_t primitive) {
+    bool test(const BlockTriangle& triangle) {
         PrimitiveHit hit;
-        if (Primitives::test_corners(ray_, corners, primitive, hit)) hits_.push_back(hit);
+        if (test_(triangle, hit)) hits_.push_back(hit);
         return false;
     }
     float last() const { return last_; }
 
 private:
-    const PreparedRay& ray_;
+    ExactTest test_;
     std::vector<PrimitiveHit>& hits_;
     float last_;
 };
 
-SurfaceHit closest_hit_kernel(const WideBvhQuery& query) {
+template <class AnyRay>
+HWY_INLINE SurfaceHit closest_of(const WideBvhScene& scene, const AnyRay& ray) {
     SurfaceHit best;
-    const FrameRay frame_ray(query.ray, query.bvh.frame);
+    if (scene.bvh.nodes.empty()) return best;
+    FrameRay frame_ray;
+    set_frame_ray(ray, scene.bvh.frame, frame_ray);
     if (frame_ray.misses()) return best;
-    ClosestSink sink(query.ray, frame_ray, best);
-    traverse(query, frame_ray, sink);
+    ClosestSink sink(scene, ray, frame_ray, best);
+    traverse(scene.bvh, frame_ray, sink);
+    sink.add_corners();
     return best;
 }
 
-bool any_hit_kernel(const WideBvhQuery& query) {
-    const FrameRay frame_ray(query.ray, query.bvh.frame);
+template <class AnyRay>
+HWY_INLINE bool any_of(const WideBvhScene& scene, const AnyRay& ray) {
+    if (scene.bvh.nodes.empty()) return false;
+    FrameRay frame_ray;
+    set_frame_ray(ray, scene.bvh.frame, frame_ray);
     if (frame_ray.misses()) return false;
-    AnySink sink(query.ray, frame_ray);
-    return traverse(query, frame_ray, sink);
+    AnySink sink(scene, ray, frame_ray.last_of_ray);
+    return traverse(scene.bvh, frame_ray, sink);
 }
 
-void all_hits_kernel(const WideBvhQuery& query, std::vector<PrimitiveHit>& hits) {
-    const FrameRay frame_ray(query.ray, query.bvh.frame);
+SurfaceHit closest_prepared(const WideBvhScene& scene, const PreparedRay& ray) { return closest_of(scene, ray); }
+SurfaceHit closest_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) { return closest_of(scene, ray); }
+bool any_prepared(const WideBvhScene& scene, const PreparedRay& ray) { return any_of(scene, ray); }
+bool any_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) { return any_of(scene, ray); }
+
+void all_prepared(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
+    if (scene.bvh.nodes.empty()) return;
+    const FrameRay frame_ray(ray, scene.bvh.frame);
     if (frame_ray.misses()) return;
-    AllSink sink(query.ray, frame_ray, hits);
-    traverse(query, frame_ray, sink);
+    AllSink sink(scene, ray, frame_ray.last_of_ray, hits);
+    traverse(scene.bvh, frame_ray, sink);
 }
 
 } // namespace
@@ -103,14 +164,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace raywise {
 
-HWY_EXPORT(closest_hit_kernel);
-HWY_EXPORT(any_hit_kernel);
-HWY_EXPORT(all_hits_kernel);
+HWY_EXPORT(closest_prepared);
+HWY_EXPORT(closest_unprepared);
+HWY_EXPORT(any_prepared);
+HWY_EXPORT(any_unprepared);
+HWY_EXPORT(all_prepared);
 
-SurfaceHit closest_hit(const WideBvhQuery& query) { return HWY_DYNAMIC_DISPATCH(closest_hit_kernel)(query); }
-bool any_hit(const WideBvhQuery& query) { return HWY_DYNAMIC_DISPATCH(any_hit_kernel)(query); }
-void all_hits(const WideBvhQuery& query, std::vector<PrimitiveHit>& hits) {
-    HWY_DYNAMIC_DISPATCH(all_hits_kernel)(query, hits);
+SurfaceHit closest_hit(const WideBvhScene& scene, const PreparedRay& ray) {
+    return HWY_DYNAMIC_DISPATCH(closest_prepared)(scene, ray);
+}
+SurfaceHit closest_hit(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    return HWY_DYNAMIC_DISPATCH(closest_unprepared)(scene, ray);
+}
+bool any_hit(const WideBvhScene& scene, const PreparedRay& ray) {
+    return HWY_DYNAMIC_DISPATCH(any_prepared)(scene, ray);
+}
+bool any_hit(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    return HWY_DYNAMIC_DISPATCH(any_unprepared)(scene, ray);
+}
+void all_hits(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
+    HWY_DYNAMIC_DISPATCH(all_prepared)(scene, ray, hits);
 }
 
 } // namespace raywise

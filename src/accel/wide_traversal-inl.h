@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
@@ -40,23 +41,21 @@ public:
             inverse_[axis] = hn::Set(Lanes(), ray.inverse[axis]);
             entry_offset_[axis] = hn::Set(Lanes(), ray.entry_offset[axis]);
             exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
-            const auto backwards = static_cast<std::size_t>(ray.backwards[axis]);
-            entry_line_[axis] = (3 * backwards + axis) * wide_bvh_width;
-            exit_line_[axis] = (3 * (1 - backwards) + axis) * wide_bvh_width;
+            entry_line_[axis] = (2 * axis + ((ray.backwards >> axis) & 1u)) * line;
         }
     }
 
     // Which children may hold a hit up to `last`, as bits; where the ray enters each goes to `entries`.
     HWY_INLINE std::uint32_t operator()(const WideNode& node, float last, float* entries) const {
         const Lanes d;
-        const float* const planes = &node.planes[0][0][0];
+        const char* const planes = reinterpret_cast<const char*>(node.planes);
         std::uint32_t bits = 0;
         for (std::size_t lane = 0; lane < wide_bvh_width; lane += lane_count) {
             Vector entry = first_;
             Vector exit = hn::Set(d, last);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Vector entry_plane = hn::Load(d, planes + entry_line_[axis] + lane);
-                const Vector exit_plane = hn::Load(d, planes + exit_line_[axis] + lane);
+                const Vector entry_plane = load(planes + entry_line_[axis], lane);
+                const Vector exit_plane = load(planes + (entry_line_[axis] ^ line), lane);
                 entry = hn::Max(entry, hn::MulSub(entry_plane, inverse_[axis], entry_offset_[axis]));
                 exit = hn::Min(exit, hn::MulSub(exit_plane, inverse_[axis], exit_offset_[axis]));
             }
@@ -67,12 +66,17 @@ public:
     }
 
 private:
+    static constexpr std::size_t line = wide_bvh_width * sizeof(float);
+
+    static HWY_INLINE Vector load(const char* planes, std::size_t lane) {
+        return hn::Load(Lanes(), reinterpret_cast<const float*>(planes) + lane);
+    }
+
     Vector inverse_[3];
     Vector entry_offset_[3];
     Vector exit_offset_[3];
     Vector first_;
-    std::size_t entry_line_[3];
-    std::size_t exit_line_[3];
+    std::size_t entry_line_[3]; // in bytes
 };
 
 // The triangles of a block against a ray.
@@ -93,9 +97,13 @@ public:
             const auto a = corner(lines, n);
             const auto b = corner(lines + 3 * n, n);
             const auto c = corner(lines + 6 * n, n);
-            bits |= bits_of(may_hit(d, filter_, a, b, c, first_, hn::Set(d, last))) << lane;
+            const auto edges = edges_of(d, filter_, a, b, c);
+            const std::uint32_t present = ((1u << (n - lane)) - 1u) & ((1u << lane_count) - 1u);
+            std::uint32_t part = bits_of(may_hit(edges)) & present;
+            if (part != 0) part &= bits_of(may_hit_within(d, filter_, edges, a, b, c, first_, hn::Set(d, last)));
+            bits |= part << lane;
         }
-        return bits & ((1u << n) - 1u);
+        return bits;
     }
 
 private:
@@ -111,76 +119,88 @@ private:
 };
 
 struct StackEntry {
+    WideReference reference;
     float entry; // where the ray enters it
-    std::uint32_t child;
-    std::uint32_t triangles;
 };
 
-HWY_INLINE void prefetch(const WideBvh& bvh, std::uint32_t child, std::uint32_t triangles) {
-    if (triangles == 0) {
-        const char* const node = reinterpret_cast<const char*>(&bvh.nodes[child]);
-        for (std::size_t line = 0; line < sizeof(WideNode); line += 64) __builtin_prefetch(node + line);
-    } else {
-        const char* const block = reinterpret_cast<const char*>(&bvh.words[words_per_triangle * child]);
-        for (std::size_t line = 0; line < 256; line += 64) __builtin_prefetch(block + line);
-    }
+HWY_INLINE void prefetch(const WideBvh& bvh, WideReference reference) {
+    const void* const target = reference.is_leaf() ? static_cast<const void*>(bvh.block(reference.index()))
+                                                   : static_cast<const void*>(&bvh.nodes[reference.index()]);
+    for (std::size_t line = 0; line < sizeof(WideNode); line += 64)
+        __builtin_prefetch(static_cast<const char*>(target) + line);
 }
 
-// Calls sink.test(corners, primitive) for what the ray may hit up to sink.last(), until it returns true. Returns whether it did.
+// Calls sink.test for the triangles of a leaf that the ray may hit. Returns whether one of the calls did. A function of its own, so
+// that what a ray needs for triangles does not take registers from what it needs for boxes.
 template <class Sink>
-HWY_INLINE bool traverse(const WideBvhQuery& query, const FrameRay& ray, Sink& sink) {
-    const WideBvh& bvh = query.bvh;
-    if (bvh.nodes.empty()) return false;
-    const BoxTest box_test(ray);
+HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const FrameRay& ray, WideReference leaf, Sink& sink) {
     const BlockTest block_test(ray);
+    const std::uint32_t triangles = leaf.triangles();
+    for (std::uint32_t begin = 0; begin < triangles; begin += block_size) {
+        const std::uint32_t n = triangles - begin < block_size ? triangles - begin : block_size;
+        const BlockWord* const block = bvh.block(std::size_t{leaf.index()} + begin);
+        for (std::uint32_t bits = block_test(block, n, sink.last()); bits != 0; bits &= bits - 1) {
+            if (sink.test({block, n, lowest_bit(bits)})) return true;
+        }
+    }
+    return false;
+}
+
+// Calls sink.test for what the ray may hit up to sink.last(), until it returns true. Returns whether it did. There has to be a node.
+template <class Sink>
+HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
+    const BoxTest box_test(ray);
 
     // Each level leaves at most seven behind.
     StackEntry stack[(wide_bvh_width - 1) * bvh_max_depth + wide_bvh_width];
-    std::size_t height = 0;
-    StackEntry current{0.0f, 0, 0};
+    StackEntry* top = stack;
+    WideReference current = WideReference::node(0);
     for (;;) {
-        if (current.triangles == 0) {
-            const WideNode& node = bvh.nodes[current.child];
+        if (HWY_LIKELY(!current.is_leaf())) {
+            const WideNode& node = bvh.nodes[current.index()];
             HWY_ALIGN float entries[wide_bvh_width];
             std::uint32_t bits = box_test(node, sink.last(), entries);
             if (bits != 0) {
-                const std::size_t base = height;
+                const std::uint32_t i = lowest_bit(bits);
+                bits &= bits - 1;
+                current = node.child[i];
+                if (bits == 0) continue;
+
+                // The nearest is next, the others wait, the farthest at the bottom.
+                prefetch(bvh, current);
+                float entry = entries[i];
+                StackEntry* const bottom = top;
                 do {
-                    const std::uint32_t i = lowest_bit(bits);
+                    const std::uint32_t k = lowest_bit(bits);
                     bits &= bits - 1;
-                    const StackEntry pushed{entries[i], node.child[i], node.triangles[i]};
-                    prefetch(bvh, pushed.child, pushed.triangles);
-                    std::size_t place = height++;
+                    StackEntry pushed{node.child[k], entries[k]};
+                    prefetch(bvh, pushed.reference);
                     if (Sink::in_order) {
-                        for (; place > base && stack[place - 1].entry < pushed.entry; --place)
-                            stack[place] = stack[place - 1];
+                        if (pushed.entry < entry) {
+                            std::swap(pushed.reference, current);
+                            std::swap(pushed.entry, entry);
+                        }
+                        StackEntry* place = top;
+                        for (; place > bottom && place[-1].entry < pushed.entry; --place) place[0] = place[-1];
+                        *place = pushed;
+                    } else {
+                        *top = {current, entry};
+                        current = pushed.reference;
+                        entry = pushed.entry;
                     }
-                    stack[place] = pushed;
+                    ++top;
                 } while (bits != 0);
-                current = stack[--height];
                 continue;
             }
-        } else {
-            for (std::uint32_t begin = 0; begin < current.triangles; begin += block_size) {
-                const std::uint32_t n = current.triangles - begin < block_size ? current.triangles - begin : block_size;
-                const BlockWord* const block = &bvh.words[words_per_triangle * (std::size_t{current.child} + begin)];
-                std::uint32_t bits = block_test(block, n, sink.last());
-                for (; bits != 0; bits &= bits - 1) {
-                    const std::uint32_t i = lowest_bit(bits);
-                    const std::uint32_t primitive = block[9 * n + i].primitive;
-                    const Corners corners =
-                        bvh.exact ? Corners{block_corner(bvh, block, n, i, 0), block_corner(bvh, block, n, i, 1),
-                                            block_corner(bvh, block, n, i, 2)}
-                                  : query.primitives.corners(primitive);
-                    if (sink.test(corners, primitive)) return true;
-                }
-            }
+        } else if (visit_leaf(bvh, ray, current, sink)) {
+            return true;
         }
         // What has been pushed may lie beyond a hit found since.
         do {
-            if (height == 0) return false;
-            current = stack[--height];
-        } while (Sink::in_order && current.entry > sink.last());
+            if (top == stack) return false;
+            --top;
+        } while (Sink::in_order && top->entry > sink.last());
+        current = top->reference;
     }
 }
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace raywise {
@@ -23,11 +25,65 @@ struct Ray {
     }
 };
 
+// The unit in which t is counted inside the library ("scaled t"): directions are scaled by a power of two so that their largest
+// component lies in [1, 2), which makes one error bound serve all rays and keeps products of tiny or huge directions from under- or
+// overflowing. Both conversions are exact, but for results beyond the normal numbers.
+class RayUnit {
+public:
+    RayUnit() = default;
+    // largest: of the magnitudes of the caller's direction; finite, not zero.
+    explicit RayUnit(double largest) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &largest, sizeof bits);
+        exponent_ = static_cast<int>(bits >> 52) - 1023; // of a normal number
+        if (std::abs(exponent_) <= 1000) { // so that 2^exponent and 2^-exponent are normal numbers both
+            unit_ = power_of_two(exponent_);
+            inverse_unit_ = power_of_two(-exponent_);
+        } else {
+            exponent_ = std::ilogb(largest);
+        }
+    }
+
+    // By multiplication where a power of two can be multiplied with: ldexp takes ten times as long.
+    double to_caller(double scaled_t) const {
+        return is_plain() ? scaled_t * inverse_unit_ : std::ldexp(scaled_t, -exponent_);
+    }
+    double from_caller(double t) const { return is_plain() ? t * unit_ : std::ldexp(t, exponent_); }
+
+    int exponent() const { return exponent_; } // of the unit
+    bool is_plain() const { return unit_ != 0.0; }
+    double unit() const { return unit_; }                 // where it is plain
+    double inverse_unit() const { return inverse_unit_; } // where it is plain
+
+private:
+    static double power_of_two(int exponent) {
+        const auto bits = static_cast<std::uint64_t>(exponent + 1023) << 52;
+        double power;
+        std::memcpy(&power, &bits, sizeof power);
+        return power;
+    }
+
+    int exponent_ = 0;
+    double unit_ = 0.0; // 0: not a normal number, or its inverse is not
+    double inverse_unit_ = 0.0;
+};
+
+// The axis of the largest component, the lowest of equals, and its magnitude.
+struct MajorAxis {
+    int axis;
+    double magnitude;
+
+    explicit MajorAxis(const Vec3& direction) {
+        const Vec3 magnitude_of = magnitudes(direction);
+        const double larger_of_xy = larger(magnitude_of.x, magnitude_of.y);
+        axis = magnitude_of.z > larger_of_xy ? 2 : static_cast<int>(magnitude_of.y > magnitude_of.x);
+        magnitude = larger(larger_of_xy, magnitude_of.z);
+    }
+};
+
 // A ray made ready for traversal.
 //
-// The direction is scaled by a power of two so that its largest component lies in [1, 2); t inside the library is
-// counted in that unit ("scaled t"), and to_caller() and from_caller() convert without rounding. Scaling makes one error
-// bound serve all rays and keeps products of tiny or huge directions from under- or overflowing.
+// The direction is scaled, and t counted, in a RayUnit.
 //
 // `margin` is the slack every culling test must leave, in scaled t. A hit's t is accurate to margin / 8 (see
 // geometry/triangle_test.h) and the slab distances of boxes the ray meets within the scene are too, so a test that errs
@@ -41,13 +97,9 @@ public:
 
     // bounds: of the whole scene. The ray has to be valid (see is_traceable).
     PreparedRay(const Ray& ray, const Box& bounds, SkipList skipped = {}) : origin(ray.origin), skip(skipped) {
-        const Vec3 magnitude = glm::abs(ray.direction);
-        major_axis =
-            magnitude.x >= magnitude.y ? (magnitude.x >= magnitude.z ? 0 : 2) : (magnitude.y >= magnitude.z ? 1 : 2);
-        scale_exponent_ = std::ilogb(at(magnitude, major_axis));
-        const bool plain = std::abs(scale_exponent_) <= 1000; // 2^exponent and 2^-exponent are both normal numbers
-        unit_ = plain ? std::ldexp(1.0, scale_exponent_) : 0.0;
-        inverse_unit_ = plain ? 1.0 / unit_ : 0.0;
+        const MajorAxis major(ray.direction);
+        major_axis = major.axis;
+        unit_ = RayUnit(major.magnitude);
         for (int axis = 0; axis < 3; ++axis) {
             direction[axis] = to_caller(ray.direction[axis]);
             if (std::fabs(direction[axis]) < smallest_direction) direction[axis] = std::copysign(0.0, direction[axis]);
@@ -61,12 +113,15 @@ public:
         // Converting rounds only where the result is below the normal numbers; then the interval must not grow.
         if (to_caller(tmin) < ray.tmin) tmin = std::nextafter(tmin, std::numeric_limits<double>::infinity());
         // A hit so far away that its t overflows in the caller's unit cannot be reported.
-        tmax = std::min(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
+        tmax = smaller(from_caller(ray.tmax), from_caller(std::numeric_limits<double>::max()));
         if (to_caller(tmax) > ray.tmax) tmax = std::nextafter(tmax, -std::numeric_limits<double>::infinity());
-        const double reach = max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)));
-        // A direction so long that the caller's t is below the normal numbers rounds t to steps that may be large here.
-        const double t_step = from_caller(std::numeric_limits<double>::denorm_min());
-        margin = std::max(0x1p-34 * std::max(reach, 0x1p-900), 16.0 * t_step);
+        const double reach =
+            max_component(larger(magnitudes(bounds.lower - origin), magnitudes(bounds.upper - origin)));
+        margin = 0x1p-34 * larger(reach, 0x1p-900);
+        // A direction so long that the caller's t is below the normal numbers rounds t to steps that may be large here. For others
+        // this would only cost the time that processors take for a product with such a number.
+        if (unit_.exponent() > 100)
+            margin = std::max(margin, 16.0 * from_caller(std::numeric_limits<double>::denorm_min()));
         certain_edge =
             reach > 0x1p-370 && reach < 0x1p400 ? 0x1p-43 * reach * reach : std::numeric_limits<double>::infinity();
         axis_origin = {at(origin, x_axis), at(origin, y_axis), at(origin, major_axis)};
@@ -77,11 +132,8 @@ public:
         return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0) && ray.tmin <= ray.tmax;
     }
 
-    // By multiplication where a power of two can be multiplied with: ldexp takes ten times as long.
-    double to_caller(double scaled_t) const {
-        return unit_ != 0.0 ? scaled_t * inverse_unit_ : std::ldexp(scaled_t, -scale_exponent_);
-    }
-    double from_caller(double t) const { return unit_ != 0.0 ? t * unit_ : std::ldexp(t, scale_exponent_); }
+    double to_caller(double scaled_t) const { return unit_.to_caller(scaled_t); }
+    double from_caller(double t) const { return unit_.from_caller(t); }
 
     Vec3 origin;
     Vec3 direction; // largest component in [1, 2)
@@ -101,9 +153,16 @@ public:
     SkipList skip; // what the ray does not see
 
 private:
-    int scale_exponent_;
-    double unit_;         // 2^scale_exponent_; 0 when that is no normal number
-    double inverse_unit_; // 2^-scale_exponent_
+    RayUnit unit_;
+};
+
+// A traceable ray as the caller gave it, with what it takes to prepare it: for structures that answer many rays without.
+struct UnpreparedRay {
+    const Ray& ray;
+    const Box& bounds; // of the whole scene
+    SkipList skip;
+
+    PreparedRay prepare() const { return {ray, bounds, skip}; }
 };
 
 // The part of the ray inside a box, in scaled t.

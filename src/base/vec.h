@@ -22,8 +22,15 @@ inline typename Vector::value_type at(const Vector& v, int axis) {
     return glm::value_ptr(v)[axis];
 }
 
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+// A difference with itself is NaN where it is not zero, and so is a sum of such.
+inline bool is_finite(const Vec3& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0.0; }
 
-inline double max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+// Without branches, which rays in all directions would make mispredicted: GLM's functions for double have some.
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline Vec3 magnitudes(const Vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+inline Vec3 larger(const Vec3& a, const Vec3& b) { return {larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z)}; }
+
+inline double max_component(const Vec3& v) { return larger(v.x, larger(v.y, v.z)); }
 
 } // namespace raywise

@@ -1,5 +1,7 @@
 #include "batch/batch.h"
 
+#include "batch/ray_order.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -13,6 +15,10 @@ namespace {
 // Rays handed to a thread at once. Fewer than this are answered on the caller's thread: waking another costs more.
 constexpr std::uint64_t rays_per_task = 256;
 
+// Rays put in order together: many more, and each part of the scene would be come to once; many fewer, and their keys stay in the
+// caches.
+constexpr std::uint64_t rays_per_order = 8192;
+
 template <class T>
 void store(std::byte* address, T value) {
     std::memcpy(address, &value, sizeof value); // the caller's arrays need not be aligned
@@ -25,12 +31,22 @@ std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Pa
     const Clock::time_point start = Clock::now();
     std::atomic<std::uint64_t> invalid{0};
     parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
-        std::uint64_t invalid_here = 0;
+        RayOrder order(tracer.primitives().bounds());
+        std::vector<Ray> block;
         std::vector<std::uint32_t> skipped;
-        for (std::uint64_t i = begin; i < end; ++i) {
-            const Ray ray = rays.ray(i);
-            invalid_here += ray.has_nan() ? 1 : 0;
-            body(i, ray, rays.skip.of_ray(i, tracer.primitives(), skipped));
+        std::uint64_t invalid_here = 0;
+        for (std::uint64_t first = begin; first < end; first += rays_per_order) {
+            block.resize(std::min(rays_per_order, end - first));
+            for (std::size_t k = 0; k < block.size(); ++k) {
+                block[k] = rays.ray(first + k);
+                invalid_here += block[k].has_nan() ? 1 : 0;
+            }
+            const std::vector<std::uint32_t>& sorted = order.sort(block);
+            for (std::size_t i = 0; i < sorted.size(); ++i) {
+                __builtin_prefetch(&block[sorted[std::min(i + 4, sorted.size() - 1)]]);
+                const std::uint32_t k = sorted[i];
+                body(first + k, block[k], rays.skip.of_ray(first + k, tracer.primitives(), skipped));
+            }
         }
         invalid.fetch_add(invalid_here, std::memory_order_relaxed);
     });

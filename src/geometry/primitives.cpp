@@ -16,12 +16,11 @@ namespace {
 Vec3 scaled_normal(const Corners& c) {
     Vec3 e = c[1] - c[0];
     Vec3 f = c[2] - c[0];
-    const Vec3 largest = glm::max(glm::abs(e), glm::abs(f));
-    const double size = max_component(largest);
+    const double size = max_component(larger(magnitudes(e), magnitudes(f)));
     if (size == 0.0) return Vec3(0.0);
     Vec3 n = glm::cross(e, f);
     // Its rounding is below 2^-50 of size^2, as long as the squares are normal numbers.
-    if (size > 0x1p-300 && size < 0x1p300 && max_component(glm::abs(n)) > 0x1p-30 * size * size) return n;
+    if (size > 0x1p-300 && size < 0x1p300 && max_component(magnitudes(n)) > 0x1p-30 * size * size) return n;
 
     return exact_normal(c[0], c[1], c[2]);
 }
@@ -64,10 +63,12 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) 
 
 Vec3 unit_normal(const Corners& corners) {
     Vec3 n = scaled_normal(corners);
-    const double largest = max_component(glm::abs(n));
+    const double largest = max_component(magnitudes(n));
     if (largest == 0.0) return Vec3(0.0);
-    // Scaled again, so that the squares of a sliver's normal do not underflow.
-    for (int axis = 0; axis < 3; ++axis) n[axis] = std::ldexp(n[axis], -std::ilogb(largest));
+    // Scaled again where the squares of a sliver's normal would leave the range of float64, or lose digits.
+    if (!(largest > 0x1p-480 && largest < 0x1p480)) {
+        for (int axis = 0; axis < 3; ++axis) n[axis] = std::ldexp(n[axis], -std::ilogb(largest));
+    }
     return n / std::sqrt(glm::dot(n, n));
 }
 

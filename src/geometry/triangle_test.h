@@ -109,7 +109,8 @@ inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, c
     const double v = wc / sum;
     double z = std::clamp(sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z)), z_low, z_high);
     const double z_error = 0x1p-38 * largest;
-    if (z_low <= 0.0 && z_high >= 0.0 && std::fabs(z) <= z_error)
+    // Where the ray's interval begins beyond z_error the hit is not in it either way, and need not be told from one at the start.
+    if (z_low <= 0.0 && z_high >= 0.0 && std::fabs(z) <= z_error && ray.tmin <= 2.0 * z_error)
         z = z_near_origin(ray, a, b, c, sum < 0.0, z, z_error);
     // As the caller will see it: two hits that are at the same t there have to be so here, where they are put in order.
     hit.t = ray.from_caller(ray.to_caller(z * at(ray.inverse, ray.major_axis)));

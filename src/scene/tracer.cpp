@@ -6,6 +6,11 @@
 #include <utility>
 
 namespace raywise {
+namespace {
+
+RayUnit unit_of(const Ray& ray) { return RayUnit(MajorAxis(ray.direction).magnitude); }
+
+} // namespace
 
 Tracer::Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel)
     : primitives_(std::move(primitives)), accel_(std::move(accel)), usage_(std::make_unique<Usage>()) {}
@@ -16,20 +21,19 @@ bool Tracer::is_traceable(const Ray& ray) const {
     return false;
 }
 
-Hit Tracer::to_caller(const PreparedRay& ray, const PrimitiveHit& hit, const Corners& corners) const {
+Hit Tracer::to_caller(const RayUnit& unit, const PrimitiveHit& hit, const Corners& corners) const {
     const PrimitiveId id = primitives_->locate(hit.primitive);
-    return {ray.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
+    return {unit.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
 }
 
 Hit Tracer::closest(const Ray& ray, SkipList skip) const {
     if (!is_traceable(ray)) return {};
-    const PreparedRay prepared(ray, primitives_->bounds(), skip);
-    const SurfaceHit hit = accel_->closest(prepared);
-    return hit.is_hit() ? to_caller(prepared, hit, hit.corners) : Hit{};
+    const SurfaceHit hit = accel_->closest(UnpreparedRay{ray, primitives_->bounds(), skip});
+    return hit.is_hit() ? to_caller(unit_of(ray), hit, hit.corners) : Hit{};
 }
 
 bool Tracer::any(const Ray& ray, SkipList skip) const {
-    return is_traceable(ray) && accel_->any(PreparedRay(ray, primitives_->bounds(), skip));
+    return is_traceable(ray) && accel_->any(UnpreparedRay{ray, primitives_->bounds(), skip});
 }
 
 void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
@@ -41,7 +45,7 @@ void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
     std::sort(found.begin(), found.end());
     keep_crossings(prepared, *primitives_, found);
     hits.reserve(found.size());
-    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(prepared, hit, primitives_->corners(hit.primitive)));
+    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(unit_of(ray), hit, primitives_->corners(hit.primitive)));
 }
 
 } // namespace raywise

@@ -51,7 +51,7 @@ public:
 
 private:
     bool is_traceable(const Ray& ray) const;
-    Hit to_caller(const PreparedRay& ray, const PrimitiveHit& hit, const Corners& corners) const;
+    Hit to_caller(const RayUnit& unit, const PrimitiveHit& hit, const Corners& corners) const;
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;
