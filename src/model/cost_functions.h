@@ -26,6 +26,9 @@ const char* ray_unit_name(Structure structure);
 // Whether the structure needs a view to differ from another candidate; without one it is no candidate.
 bool needs_view(Structure structure);
 
+// Whether so many rays pay for what a linear scan makes ready for them: gathering the triangles. Fewer read the caller's arrays.
+bool worth_gathering(const Workload& workload);
+
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload);
 

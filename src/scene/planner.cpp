@@ -90,7 +90,9 @@ private:
                                {constants.primitive_test_ns, constants.node_step_ns},
                                request_.view,
                                parallel_,
-                               progress_};
+                               progress_,
+                               !worth_gathering(request_.workload),
+                               request_.memory_limit};
         std::shared_ptr<const Accel> accel = build(structure, input);
         candidate.actual_build_ns = ns_since(start);
         candidate.actual_bytes = accel->bytes();
