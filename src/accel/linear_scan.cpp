@@ -18,7 +18,7 @@ LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) 
     if (primitives_.hittable_count() == 0) return;
     frame_ = SceneFrame(primitives_.bounds());
     if (input.few_rays) return;
-    const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_floats;
+    const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
     // Without blocks a scan is slower; that is no reason to have none.
     if (input.memory_limit != 0 && sizeof *this + size * sizeof(float) > input.memory_limit) return;
     blocks_ = PageArray<float>(size);
@@ -33,7 +33,7 @@ void LinearScan::gather(const BuildInput& input) {
         const std::uint64_t end = std::min(blocks, begin + blocks_per_task);
         gather_blocks(primitives_, frame_, static_cast<std::uint32_t>(begin * corner_block),
                       static_cast<std::uint32_t>(std::min<std::uint64_t>(primitives_.count(), end * corner_block)),
-                      blocks_.data() + begin * corner_block_floats);
+                      blocks_.data() + begin * corner_block_numbers);
         input.progress.report(static_cast<double>(done += end - begin) / static_cast<double>(blocks), "linear_scan");
     });
 }

@@ -107,7 +107,7 @@ HWY_INLINE bool scan_blocks(const ScanRay& ray, const float* blocks, std::size_t
     const Filter filter(ray);
     for (std::size_t block = 0; block < count; ++block) {
         for (std::size_t lane = 0; lane < corner_block; lane += lane_count) {
-            std::uint32_t bits = filter(blocks + block * corner_block_floats + lane);
+            std::uint32_t bits = filter(blocks + block * corner_block_numbers + lane);
             for (; HWY_UNLIKELY(bits != 0); bits &= bits - 1) {
                 const auto i = static_cast<std::uint32_t>(block * corner_block + lane) +
                                static_cast<std::uint32_t>(__builtin_ctz(bits));
@@ -137,7 +137,7 @@ void gather_kernel(const Primitives& primitives, const SceneFrame& frame, std::u
 // All rays of a group through all triangles. `sinks`, one for each, take what may be hit.
 template <class Sink>
 void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size_t count) {
-    HWY_ALIGN float gathered[tile_blocks * corner_block_floats];
+    HWY_ALIGN float gathered[tile_blocks * corner_block_numbers];
     const std::uint32_t triangles = scene.primitives.count();
     bool done[rays_together] = {};
     std::size_t left = count;
@@ -145,7 +145,7 @@ void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size
         const std::uint32_t here = std::min(tile_triangles, triangles - first);
         const float* blocks = gathered;
         if (scene.blocks != nullptr) {
-            blocks = scene.blocks + first / corner_block * corner_block_floats;
+            blocks = scene.blocks + first / corner_block * corner_block_numbers;
         } else {
             gather_kernel(scene.primitives, scene.frame, first, first + here, gathered);
         }

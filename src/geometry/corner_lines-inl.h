@@ -1,4 +1,4 @@
-// Triangles' corners out of the caller's arrays, turned into lines of x, y and z that vector registers can take in.
+// Triangles' corners out of the caller's arrays, turned into lines of x, y and z (corner_lines.h).
 //
 // For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
 #if defined(RAYWISE_GEOMETRY_CORNER_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -13,24 +13,32 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vertices of float32 whose components lie side by side.
+// Of triangle `lane` among those whose blocks begin at `blocks`: the first of nine numbers that are corner_block apart.
+template <class T>
+HWY_INLINE T* lane_of(T* blocks, std::size_t lane) {
+    return blocks + lane / corner_block * corner_block_numbers + lane % corner_block;
+}
+
+// ---- Reading the caller's arrays. They need not be aligned.
+
+// Vertices whose components lie side by side.
 struct VertexRows {
     const std::byte* data;
     std::ptrdiff_t stride;
-    std::uint64_t last; // the last vertex
 
-    template <bool packed>
-    HWY_INLINE const std::byte* row(std::uint64_t vertex) const {
-        return data + static_cast<std::ptrdiff_t>(vertex) * (packed ? 12 : stride);
+    HWY_INLINE const std::byte* operator[](std::uint64_t vertex) const {
+        return data + static_cast<std::ptrdiff_t>(vertex) * stride;
     }
 };
 
@@ -56,131 +64,277 @@ struct Indices {
     }
 };
 
+// uint32 side by side, as they usually are.
+struct PackedIndices {
+    const std::byte* data;
+
+    HWY_INLINE std::uint64_t operator()(std::uint64_t triangle, std::uint64_t corner) const {
+        std::uint32_t index;
+        std::memcpy(&index, data + 12 * triangle + 4 * corner, sizeof index);
+        return index;
+    }
+};
+
 #if HWY_TARGET == HWY_SCALAR
 
-// Corners of four triangles from `first`, to the lines from `lines`.
-template <bool packed, class Index>
-HWY_INLINE void gather_four(const VertexRows& vertices, const Index& index, std::uint64_t first, float scale,
-                            float* HWY_RESTRICT lines) {
+// The four triangles from `first`, one number after the other.
+inline constexpr std::uint32_t group_size = 4;
+
+template <class Coordinate, class Index, class Out>
+HWY_INLINE void gather_group(const VertexRows& vertices, const Index& index, std::uint64_t first,
+                             const CornerFrame& frame, Out* HWY_RESTRICT lines) {
     for (std::uint64_t corner = 0; corner < 3; ++corner) {
-        for (std::uint64_t i = 0; i < 4; ++i) {
-            float row[3];
-            std::memcpy(row, vertices.row<packed>(index(first + i, corner)), sizeof row);
-            for (std::uint64_t axis = 0; axis < 3; ++axis)
-                lines[(3 * corner + axis) * corner_block + i] = scale * row[axis];
+        for (std::uint64_t i = 0; i < group_size; ++i) {
+            Coordinate row[3];
+            std::memcpy(row, vertices[index(first + i, corner)], sizeof row);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double center = frame.center[static_cast<glm::length_t>(axis)];
+                lines[(3 * corner + axis) * corner_block + i] =
+                    static_cast<Out>((static_cast<double>(row[axis]) - center) * frame.scale);
+            }
         }
     }
 }
 
 #else
 
-using Row = hn::FixedTag<float, 4>;
+template <class T>
+using PairTag = hn::FixedTag<T, 2>;
 
-// A vertex and one number more. Packed: four numbers at once, the fourth of the next vertex; the last one has none behind it.
-template <bool packed>
-HWY_INLINE hn::VFromD<Row> load_row(const VertexRows& vertices, std::uint64_t vertex) {
-    const hn::Repartition<std::uint8_t, Row> bytes; // the caller's arrays need not be aligned
-    const hn::Half<decltype(bytes)> half;
-    const hn::Half<decltype(half)> quarter;
-    const auto* const row = reinterpret_cast<const std::uint8_t*>(vertices.row<packed>(vertex));
-    if (packed && HWY_LIKELY(vertex != vertices.last)) return hn::BitCast(Row(), hn::LoadU(bytes, row));
-    const auto z = hn::ZeroExtendVector(half, hn::LoadU(quarter, row + 8));
-    return hn::BitCast(Row(), hn::Combine(bytes, z, hn::LoadU(half, row)));
+// x and y of a vertex.
+template <class Coordinate>
+HWY_INLINE hn::VFromD<PairTag<double>> load_pair(const std::byte* row) {
+    const PairTag<Coordinate> d;
+    const hn::Repartition<std::uint8_t, PairTag<Coordinate>> bytes;
+    const auto pair = hn::BitCast(d, hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(row)));
+    if constexpr (std::is_same_v<Coordinate, double>) {
+        return pair;
+    } else {
+        return hn::PromoteTo(PairTag<double>(), pair);
+    }
 }
 
-// Corners of four triangles from `first`, to the lines from `lines`.
-template <bool packed, class Index>
-HWY_INLINE void gather_four(const VertexRows& vertices, const Index& index, std::uint64_t first, float scale,
-                            float* HWY_RESTRICT lines) {
-    const Row row;
-    const auto factor = hn::Set(row, scale);
-    for (std::uint64_t corner = 0; corner < 3; ++corner) {
-        const auto a = load_row<packed>(vertices, index(first, corner));
-        const auto b = load_row<packed>(vertices, index(first + 1, corner));
-        const auto c = load_row<packed>(vertices, index(first + 2, corner));
-        const auto d = load_row<packed>(vertices, index(first + 3, corner));
-        const auto xy_ab = hn::InterleaveLower(row, a, b); // xa xb ya yb
-        const auto xy_cd = hn::InterleaveLower(row, c, d);
-        const auto z_ab = hn::InterleaveUpper(row, a, b); // za zb . .
-        const auto z_cd = hn::InterleaveUpper(row, c, d);
-        float* const line = lines + 3 * corner * corner_block;
-        hn::StoreU(hn::Mul(hn::ConcatLowerLower(row, xy_cd, xy_ab), factor), row, line);
-        hn::StoreU(hn::Mul(hn::ConcatUpperUpper(row, xy_cd, xy_ab), factor), row, line + corner_block);
-        hn::StoreU(hn::Mul(hn::ConcatLowerLower(row, z_cd, z_ab), factor), row, line + 2 * corner_block);
+// z of a vertex, twice.
+template <class Coordinate>
+HWY_INLINE hn::VFromD<PairTag<double>> load_third(const std::byte* row) {
+    Coordinate z;
+    std::memcpy(&z, row + 2 * sizeof z, sizeof z);
+    return hn::Set(PairTag<double>(), static_cast<double>(z));
+}
+
+template <class Out>
+HWY_INLINE void store_pair(hn::VFromD<PairTag<double>> pair, double center, double scale, Out* line) {
+    const PairTag<double> d;
+    const auto moved = hn::Mul(hn::Sub(pair, hn::Set(d, center)), hn::Set(d, scale));
+    if constexpr (std::is_same_v<Out, double>) {
+        hn::StoreU(moved, d, line);
+    } else {
+        const PairTag<float> narrow;
+        hn::StoreU(hn::DemoteTo(narrow, moved), narrow, line);
     }
+}
+
+// The four triangles from `first`, in float64, two by two.
+inline constexpr std::uint32_t group_size = 4;
+
+template <class Coordinate, class Index, class Out>
+HWY_INLINE void gather_group(const VertexRows& vertices, const Index& index, std::uint64_t first,
+                             const CornerFrame& frame, Out* HWY_RESTRICT lines) {
+    const PairTag<double> d;
+    for (std::uint64_t corner = 0; corner < 3; ++corner) {
+        for (std::uint64_t i = 0; i < group_size; i += 2) {
+            const std::byte* const a = vertices[index(first + i, corner)];
+            const std::byte* const b = vertices[index(first + i + 1, corner)];
+            const auto xy_a = load_pair<Coordinate>(a);
+            const auto xy_b = load_pair<Coordinate>(b);
+            const auto z = hn::InterleaveLower(d, load_third<Coordinate>(a), load_third<Coordinate>(b));
+            Out* const line = lines + 3 * corner * corner_block + i;
+            store_pair(hn::InterleaveLower(d, xy_a, xy_b), frame.center.x, frame.scale, line);
+            store_pair(hn::InterleaveUpper(d, xy_a, xy_b), frame.center.y, frame.scale, line + corner_block);
+            store_pair(z, frame.center.z, frame.scale, line + 2 * corner_block);
+        }
+    }
+}
+
+// ---- The usual case, packed float32 that needs no more than scaling, by whole rows: four numbers, the last of which is the next
+// vertex's. So no index may name the last vertex.
+
+using RowTag = hn::CappedTag<float, 8>; // one row or two
+inline constexpr std::size_t rows_at_once = hn::MaxLanes(RowTag()) / 4;
+inline constexpr std::uint32_t row_group_size = 4 * rows_at_once;
+inline constexpr std::uint32_t stretch_size = 256; // triangles that are looked through for the last vertex at once
+inline constexpr std::size_t row_bytes = 3 * sizeof(float);
+
+// Of the corner of a triangle, and of the one four triangles further on.
+template <class Index>
+HWY_INLINE hn::VFromD<RowTag> load_rows(const std::byte* vertices, const Index& index, std::uint64_t triangle,
+                                        std::uint64_t corner) {
+    const hn::FixedTag<float, 4> row;
+    const hn::FixedTag<std::uint8_t, 16> bytes;
+    const auto load = [&](std::uint64_t i) HWY_ATTR {
+        const std::byte* const address = vertices + row_bytes * index(i, corner);
+        return hn::BitCast(row, hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(address)));
+    };
+    if constexpr (rows_at_once == 2) {
+        return hn::Combine(RowTag(), load(triangle + 4), load(triangle));
+    } else {
+        return load(triangle);
+    }
+}
+
+template <class Index>
+HWY_INLINE void gather_row_group(const std::byte* vertices, const Index& index, std::uint64_t first,
+                                 hn::VFromD<RowTag> scale, float* HWY_RESTRICT lines) {
+    const RowTag d;
+    const hn::Repartition<std::uint64_t, RowTag> wide;
+    for (std::uint64_t corner = 0; corner < 3; ++corner) {
+        const auto p = load_rows(vertices, index, first, corner);
+        const auto q = load_rows(vertices, index, first + 1, corner);
+        const auto r = load_rows(vertices, index, first + 2, corner);
+        const auto s = load_rows(vertices, index, first + 3, corner);
+        const auto xy_pq = hn::BitCast(wide, hn::InterleaveLower(d, p, q)); // xp xq yp yq
+        const auto xy_rs = hn::BitCast(wide, hn::InterleaveLower(d, r, s));
+        const auto z_pq = hn::BitCast(wide, hn::InterleaveUpper(d, p, q)); // zp zq . .
+        const auto z_rs = hn::BitCast(wide, hn::InterleaveUpper(d, r, s));
+        float* const line = lines + 3 * corner * corner_block;
+        hn::StoreU(hn::Mul(hn::BitCast(d, hn::InterleaveLower(wide, xy_pq, xy_rs)), scale), d, line);
+        hn::StoreU(hn::Mul(hn::BitCast(d, hn::InterleaveUpper(wide, xy_pq, xy_rs)), scale), d, line + corner_block);
+        hn::StoreU(hn::Mul(hn::BitCast(d, hn::InterleaveLower(wide, z_pq, z_rs)), scale), d, line + 2 * corner_block);
+    }
+}
+
+// Whether one of the triangles first ... end - 1 has that vertex.
+HWY_INLINE bool has_vertex(const NoIndices&, std::uint32_t first, std::uint32_t end, std::uint64_t vertex) {
+    return vertex >= std::uint64_t{3} * first && vertex < std::uint64_t{3} * end;
+}
+
+template <class T>
+HWY_INLINE bool has_vertex(const Indices<T>& index, std::uint32_t first, std::uint32_t end, std::uint64_t vertex) {
+    bool has = false;
+    for (std::uint64_t i = first; i < end; ++i) {
+        for (std::uint64_t corner = 0; corner < 3; ++corner) has |= index(i, corner) == vertex;
+    }
+    return has;
+}
+
+HWY_INLINE bool has_vertex(const PackedIndices& index, std::uint32_t first, std::uint32_t end, std::uint64_t vertex) {
+    const hn::ScalableTag<std::uint32_t> d;
+    const hn::Repartition<std::uint8_t, decltype(d)> bytes;
+    const auto wanted = hn::Set(d, static_cast<std::uint32_t>(vertex));
+    const std::byte* const begin = index.data + std::uint64_t{12} * first;
+    const std::size_t count = std::size_t{3} * (end - first);
+    std::size_t i = 0;
+    auto has = hn::Ne(wanted, wanted);
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+        const auto* const address = reinterpret_cast<const std::uint8_t*>(begin + 4 * i);
+        has = hn::Or(has, hn::Eq(hn::BitCast(d, hn::LoadU(bytes, address)), wanted));
+    }
+    bool rest = false;
+    for (; i < count; ++i) {
+        std::uint32_t number;
+        std::memcpy(&number, begin + 4 * i, sizeof number);
+        rest |= number == vertex;
+    }
+    return rest || !hn::AllFalse(d, has);
 }
 
 #endif
 
-inline float* lane_of(float* blocks, std::size_t lane) {
-    return blocks + lane / corner_block * corner_block_floats + lane % corner_block;
+// ---- Meshes.
+
+// Whether a mesh is read in groups; otherwise triangle by triangle.
+inline bool reads_in_groups(const TriangleMesh& mesh) {
+    return mesh.arrays().vertices.has_rows() && mesh.invalid_count() == 0;
 }
 
-// Triangle by triangle, whatever the layout. Those that are invalid have no corners: NaN stands for them.
-inline void gather_one(const TriangleMesh& mesh, std::uint32_t triangle, const CornerFrame& frame, float* lane) {
+// Groups from `first` on as long as they are below `end`, to the lanes from `lane` on, which is a multiple of the group's size; returns
+// the first triangle that is left.
+template <class Coordinate, class Index, class Out>
+HWY_INLINE std::uint32_t gather_groups(const TriangleArrays& arrays, const Index& index, std::uint32_t first,
+                                       std::uint32_t end, const CornerFrame& frame, Out* HWY_RESTRICT blocks,
+                                       std::size_t lane) {
+    const VertexRows vertices{arrays.vertices.data, arrays.vertices.stride};
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (std::is_same_v<Coordinate, float> && std::is_same_v<Out, float>) {
+        const bool scales_only = frame.center == Vec3(0.0) && frame.scale >= 0x1p-100 && frame.scale <= 0x1p100;
+        if (arrays.vertices.is_packed() && scales_only && lane % row_group_size == 0) {
+            const auto scale = hn::Set(RowTag(), static_cast<float>(frame.scale));
+            while (end - first >= row_group_size) {
+                const std::uint32_t stretch =
+                    std::min<std::uint32_t>(stretch_size, (end - first) / row_group_size * row_group_size);
+                const std::uint32_t stretch_end = first + stretch;
+                if (has_vertex(index, first, stretch_end, arrays.vertex_count - 1)) {
+                    for (; first < stretch_end; first += group_size, lane += group_size)
+                        gather_group<Coordinate>(vertices, index, first, frame, lane_of(blocks, lane));
+                } else {
+                    for (; first < stretch_end; first += row_group_size, lane += row_group_size)
+                        gather_row_group(arrays.vertices.data, index, first, scale, lane_of(blocks, lane));
+                }
+            }
+        }
+    }
+#endif
+    for (; end - first >= group_size; first += group_size, lane += group_size)
+        gather_group<Coordinate>(vertices, index, first, frame, lane_of(blocks, lane));
+    return first;
+}
+
+template <class Coordinate, class Out>
+HWY_INLINE std::uint32_t gather_groups_of(const TriangleArrays& arrays, std::uint32_t first, std::uint32_t end,
+                                          const CornerFrame& frame, Out* HWY_RESTRICT blocks, std::size_t lane) {
+    const StridedArray& i = arrays.indices;
+    if (i.data == nullptr) return gather_groups<Coordinate>(arrays, NoIndices(), first, end, frame, blocks, lane);
+    if (i.scalar == Scalar::uint32) {
+        if (i.is_packed())
+            return gather_groups<Coordinate>(arrays, PackedIndices{i.data}, first, end, frame, blocks, lane);
+        const Indices<std::uint32_t> index{i.data, i.stride, i.component_stride};
+        return gather_groups<Coordinate>(arrays, index, first, end, frame, blocks, lane);
+    }
+    const Indices<std::uint64_t> index{i.data, i.stride, i.component_stride};
+    return gather_groups<Coordinate>(arrays, index, first, end, frame, blocks, lane);
+}
+
+// Whatever the layout. Triangles that are invalid have no corners: NaN stands for them.
+template <class Out>
+inline void gather_one(const TriangleMesh& mesh, std::uint32_t triangle, const CornerFrame& frame, Out* lane) {
     const bool valid = mesh.is_valid(triangle);
     const Corners corners = valid ? mesh.corners(triangle) : Corners{};
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<glm::length_t>(axis);
+            const double number = (corners[k][a] - frame.center[a]) * frame.scale;
             lane[(3 * k + axis) * corner_block] =
-                valid ? static_cast<float>((corners[k][a] - frame.center[a]) * frame.scale)
-                      : std::numeric_limits<float>::quiet_NaN();
+                valid ? static_cast<Out>(number) : std::numeric_limits<Out>::quiet_NaN();
         }
     }
 }
 
-// Fours from `first` on as long as they are below `end`; returns the first that is left.
-template <bool packed, class Index>
-HWY_INLINE std::uint32_t gather_fours(const VertexRows& vertices, const Index& index, std::uint32_t first,
-                                      std::uint32_t end, float scale, float* HWY_RESTRICT blocks, std::size_t lane) {
-    for (; end - first >= 4; first += 4, lane += 4)
-        gather_four<packed>(vertices, index, first, scale, lane_of(blocks, lane));
-    return first;
-}
-
-template <bool packed>
-HWY_INLINE std::uint32_t gather_fours_of(const TriangleArrays& arrays, const VertexRows& vertices, std::uint32_t first,
-                                         std::uint32_t end, float scale, float* HWY_RESTRICT blocks, std::size_t lane) {
-    const StridedArray& i = arrays.indices;
-    if (i.data == nullptr) return gather_fours<packed>(vertices, NoIndices(), first, end, scale, blocks, lane);
-    if (i.scalar == Scalar::uint32) {
-        const Indices<std::uint32_t> index{i.data, i.stride, i.component_stride};
-        return gather_fours<packed>(vertices, index, first, end, scale, blocks, lane);
-    }
-    const Indices<std::uint64_t> index{i.data, i.stride, i.component_stride};
-    return gather_fours<packed>(vertices, index, first, end, scale, blocks, lane);
-}
-
-// Whether a mesh can be read in fours: float32 that needs no more than scaling.
-inline bool reads_in_fours(const TriangleMesh& mesh, const CornerFrame& frame) {
-    const StridedArray& vertices = mesh.arrays().vertices;
-    return vertices.scalar == Scalar::float32 && vertices.has_rows() && mesh.invalid_count() == 0 &&
-           frame.center == Vec3(0.0) && frame.scale >= 0x1p-100 && frame.scale <= 0x1p100;
-}
-
 // The corners of a mesh's triangles first ... end - 1, to the lanes from `lane` on.
+template <class Out>
 inline void gather_mesh(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, const CornerFrame& frame,
-                        float* blocks, std::size_t lane) {
-    const std::size_t begin_lane = lane - first;
-    const auto one = [&](std::uint32_t i) { gather_one(mesh, i, frame, lane_of(blocks, begin_lane + i)); };
-    if (reads_in_fours(mesh, frame)) {
-        for (; first < end && (begin_lane + first) % 4 != 0; ++first) one(first); // so that no four is in two blocks
-        const TriangleArrays& arrays = mesh.arrays();
-        const VertexRows vertices{arrays.vertices.data, arrays.vertices.stride, arrays.vertex_count - 1};
-        const auto scale = static_cast<float>(frame.scale);
-        first = arrays.vertices.is_packed()
-                    ? gather_fours_of<true>(arrays, vertices, first, end, scale, blocks, begin_lane + first)
-                    : gather_fours_of<false>(arrays, vertices, first, end, scale, blocks, begin_lane + first);
+                        Out* blocks, std::size_t lane) {
+    const auto one = [&] {
+        gather_one(mesh, first, frame, lane_of(blocks, lane));
+        ++first;
+        ++lane;
+    };
+    if (reads_in_groups(mesh)) {
+        while (first < end && lane % corner_block != 0) one(); // so that no group is in two blocks
+        const std::uint32_t begin = first;
+        first = mesh.arrays().vertices.scalar == Scalar::float32
+                    ? gather_groups_of<float>(mesh.arrays(), first, end, frame, blocks, lane)
+                    : gather_groups_of<double>(mesh.arrays(), first, end, frame, blocks, lane);
+        lane += first - begin;
     }
-    for (; first < end; ++first) one(first);
+    while (first < end) one();
 }
 
 // NaN for lanes that stand for no triangle.
-inline void fill_lanes(float* blocks, std::size_t lane, std::size_t end) {
+template <class Out>
+inline void fill_lanes(Out* blocks, std::size_t lane, std::size_t end) {
     for (; lane < end; ++lane) {
         for (std::size_t line = 0; line < 9; ++line)
-            lane_of(blocks, lane)[line * corner_block] = std::numeric_limits<float>::quiet_NaN();
+            lane_of(blocks, lane)[line * corner_block] = std::numeric_limits<Out>::quiet_NaN();
     }
 }
 

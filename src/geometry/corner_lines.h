@@ -10,7 +10,7 @@ namespace raywise {
 // Sixteen triangles to a block, as many as the widest registers compare at once: nine lines of sixteen numbers, x y z of the first
 // corners, then of the second and the third.
 inline constexpr std::size_t corner_block = 16;
-inline constexpr std::size_t corner_block_floats = 9 * corner_block;
+inline constexpr std::size_t corner_block_numbers = 9 * corner_block;
 
 inline std::size_t corner_blocks_for(std::size_t triangles) { return (triangles + corner_block - 1) / corner_block; }
 
