@@ -3,8 +3,8 @@
 // Corners are sheared as in geometry/triangle_test.h, but with the ray's start taken off at once: x - offset_x - shear_x z, where
 // offset_x is start_x - shear_x start_z. With L the largest component of the start, at least 1, and u = 2^-24: the corner's x and z
 // are rounded by u, the start's by u L, offset_x by 2 u L, the first difference by u (1 + 2 L), the product by u, the last
-// difference by u (2 + 2 L); that shear_x is rounded moves the corner by u (1 + L). Together less than 9 u (1 + L): FrameRay's
-// corner_error e is 16 u (1 + L), and has the start's own rounding added.
+// difference by u (2 + 2 L); that shear_x is rounded moves the corner by u (1 + L). Together less than 9 u (1 + L). FrameRay's
+// corner_error is 16 u (1 + L), with many times the start's own rounding added: e is five eighths of it.
 //
 // With R the largest |x| or |y| of a sheared corner, an edge x1 y2 - y1 x2 is wrong by at most 4 R e + 2 e^2, and rounded by 4 u R^2,
 // fused or not (triangle_filter-inl.h). No |x| or |y| in the scene is above 2 (1 + L) + e: one bound serves all triangles.
@@ -33,7 +33,7 @@ struct ScanRay {
         offset_x = static_cast<float>(x - static_cast<double>(shear_x) * z);
         offset_y = static_cast<float>(y - static_cast<double>(shear_y) * z);
         // Everything a little larger, for the rounding of these lines.
-        const double e = 1.001 * static_cast<double>(ray.corner_error);
+        const double e = 0.626 * static_cast<double>(ray.corner_error);
         const double start = 1.001 * std::max({1.0, std::fabs(x), std::fabs(y), std::fabs(z)});
         const double reach = 2.0 * (1.0 + start) + e;
         four_e = static_cast<float>(4.0 * e);

@@ -157,41 +157,54 @@ HWY_INLINE void gather_group(const VertexRows& vertices, const Index& index, std
 }
 
 // ---- The usual case, packed float32 that needs no more than scaling, by whole rows: four numbers, the last of which is the next
-// vertex's. So no index may name the last vertex.
+// vertex's. The last vertex has none behind it.
 
 using RowTag = hn::CappedTag<float, 8>; // one row or two
 inline constexpr std::size_t rows_at_once = hn::MaxLanes(RowTag()) / 4;
 inline constexpr std::uint32_t row_group_size = 4 * rows_at_once;
 inline constexpr std::uint32_t stretch_size = 256; // triangles that are looked through for the last vertex at once
-inline constexpr std::size_t row_bytes = 3 * sizeof(float);
+
+struct PackedRows {
+    const std::byte* data;
+    std::uint64_t last; // the last vertex
+
+    template <bool may_be_last>
+    HWY_INLINE hn::VFromD<hn::FixedTag<float, 4>> load(std::uint64_t vertex) const {
+        const hn::FixedTag<float, 4> row;
+        const hn::FixedTag<std::uint8_t, 16> bytes;
+        const auto* const address = reinterpret_cast<const std::uint8_t*>(data + 12 * vertex);
+        if (may_be_last && HWY_UNLIKELY(vertex == last)) {
+            const hn::Half<decltype(bytes)> half;
+            const hn::Half<decltype(half)> quarter;
+            const auto z = hn::ZeroExtendVector(half, hn::LoadU(quarter, address + 8));
+            return hn::BitCast(row, hn::Combine(bytes, z, hn::LoadU(half, address)));
+        }
+        return hn::BitCast(row, hn::LoadU(bytes, address));
+    }
+};
 
 // Of the corner of a triangle, and of the one four triangles further on.
-template <class Index>
-HWY_INLINE hn::VFromD<RowTag> load_rows(const std::byte* vertices, const Index& index, std::uint64_t triangle,
+template <bool may_be_last, class Index>
+HWY_INLINE hn::VFromD<RowTag> load_rows(const PackedRows& vertices, const Index& index, std::uint64_t triangle,
                                         std::uint64_t corner) {
-    const hn::FixedTag<float, 4> row;
-    const hn::FixedTag<std::uint8_t, 16> bytes;
-    const auto load = [&](std::uint64_t i) HWY_ATTR {
-        const std::byte* const address = vertices + row_bytes * index(i, corner);
-        return hn::BitCast(row, hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(address)));
-    };
     if constexpr (rows_at_once == 2) {
-        return hn::Combine(RowTag(), load(triangle + 4), load(triangle));
+        return hn::Combine(RowTag(), vertices.load<may_be_last>(index(triangle + 4, corner)),
+                           vertices.load<may_be_last>(index(triangle, corner)));
     } else {
-        return load(triangle);
+        return vertices.load<may_be_last>(index(triangle, corner));
     }
 }
 
-template <class Index>
-HWY_INLINE void gather_row_group(const std::byte* vertices, const Index& index, std::uint64_t first,
+template <bool may_be_last, class Index>
+HWY_INLINE void gather_row_group(const PackedRows& vertices, const Index& index, std::uint64_t first,
                                  hn::VFromD<RowTag> scale, float* HWY_RESTRICT lines) {
     const RowTag d;
     const hn::Repartition<std::uint64_t, RowTag> wide;
     for (std::uint64_t corner = 0; corner < 3; ++corner) {
-        const auto p = load_rows(vertices, index, first, corner);
-        const auto q = load_rows(vertices, index, first + 1, corner);
-        const auto r = load_rows(vertices, index, first + 2, corner);
-        const auto s = load_rows(vertices, index, first + 3, corner);
+        const auto p = load_rows<may_be_last>(vertices, index, first, corner);
+        const auto q = load_rows<may_be_last>(vertices, index, first + 1, corner);
+        const auto r = load_rows<may_be_last>(vertices, index, first + 2, corner);
+        const auto s = load_rows<may_be_last>(vertices, index, first + 3, corner);
         const auto xy_pq = hn::BitCast(wide, hn::InterleaveLower(d, p, q)); // xp xq yp yq
         const auto xy_rs = hn::BitCast(wide, hn::InterleaveLower(d, r, s));
         const auto z_pq = hn::BitCast(wide, hn::InterleaveUpper(d, p, q)); // zp zq . .
@@ -258,17 +271,17 @@ HWY_INLINE std::uint32_t gather_groups(const TriangleArrays& arrays, const Index
     if constexpr (std::is_same_v<Coordinate, float> && std::is_same_v<Out, float>) {
         const bool scales_only = frame.center == Vec3(0.0) && frame.scale >= 0x1p-100 && frame.scale <= 0x1p100;
         if (arrays.vertices.is_packed() && scales_only && lane % row_group_size == 0) {
+            const PackedRows rows{arrays.vertices.data, arrays.vertex_count - 1};
             const auto scale = hn::Set(RowTag(), static_cast<float>(frame.scale));
             while (end - first >= row_group_size) {
-                const std::uint32_t stretch =
-                    std::min<std::uint32_t>(stretch_size, (end - first) / row_group_size * row_group_size);
-                const std::uint32_t stretch_end = first + stretch;
-                if (has_vertex(index, first, stretch_end, arrays.vertex_count - 1)) {
-                    for (; first < stretch_end; first += group_size, lane += group_size)
-                        gather_group<Coordinate>(vertices, index, first, frame, lane_of(blocks, lane));
+                const std::uint32_t whole = (end - first) / row_group_size * row_group_size;
+                const std::uint32_t stretch_end = first + std::min(stretch_size, whole);
+                if (has_vertex(index, first, stretch_end, rows.last)) {
+                    for (; first < stretch_end; first += row_group_size, lane += row_group_size)
+                        gather_row_group<true>(rows, index, first, scale, lane_of(blocks, lane));
                 } else {
                     for (; first < stretch_end; first += row_group_size, lane += row_group_size)
-                        gather_row_group(arrays.vertices.data, index, first, scale, lane_of(blocks, lane));
+                        gather_row_group<false>(rows, index, first, scale, lane_of(blocks, lane));
                 }
             }
         }
