@@ -36,7 +36,8 @@ struct ScanRay {
         const double e = 0.626 * static_cast<double>(ray.corner_error);
         const double start = 1.001 * std::max({1.0, std::fabs(x), std::fabs(y), std::fabs(z)});
         const double reach = 2.0 * (1.0 + start) + e;
-        four_e = static_cast<float>(4.0 * e);
+        // Infinity times a reach of zero would be NaN.
+        four_e = std::isfinite(e) ? static_cast<float>(4.0 * e) : 0.0f;
         two_e_e = static_cast<float>(2.0 * e * e);
         scene_error = static_cast<float>(1.001 * (reach * (0x1p-22 * reach + 4.0 * e) + 2.0 * e * e));
     }

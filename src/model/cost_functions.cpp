@@ -46,9 +46,11 @@ static_assert(is_complete(), "one line per structure of structure_list.def, in i
 
 const CostFunctions& functions_of(Structure structure) { return table[static_cast<std::size_t>(structure)]; }
 
-// A ray over the caller's arrays gathers them on its way. That takes what gathering takes at the commit but for the memory, which has
-// to be got and written: together about TODO rays' worth.
-constexpr std::uint64_t gathering_pays_from = 4;
+// Rays. Gathering takes 2 to 12 ns per triangle, most of it for the memory; a ray over gathered triangles then takes 0.6 to 1.6 ns per
+// triangle less than one that reads the caller's arrays. The break-even lies between 3 rays (soup of a million triangles) and 12
+// (terrain of a million), at 4 to 7 for smaller scenes. Measured with a loop over scenes of calibration/scenes from 1,000 to a million
+// triangles on an Intel Xeon with AVX-512 (family 6, model 207), 2026-11-26: docs/decisions/0012-linear-scan.md.
+constexpr std::uint64_t gathering_pays_from = 8;
 
 } // namespace
 
@@ -60,6 +62,15 @@ bool needs_view(Structure structure) { return functions_of(structure).needs_view
 
 bool worth_gathering(const Workload& workload) { return !workload.rays || *workload.rays >= gathering_pays_from; }
 
+Cost scan_in_place(const MachineConstants& constants, const Cost& gathered) {
+    const StructureConstants& lines = constants.structures[Structure::linear_scan];
+    Cost cost = gathered;
+    cost.build_ns = lines.build_ns.fixed;
+    cost.ray_ns += gathered.build_ns - lines.build_ns.fixed;
+    cost.bytes = lines.bytes.fixed;
+    return cost;
+}
+
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload) {
     const StructureConstants& lines = constants.structures[structure];
@@ -70,12 +81,8 @@ Cost predict(Structure structure, const MachineConstants& constants, const Scene
     cost.build_ns = lines.build_ns.fixed + lines.build_ns.per_unit * build_unit(structure, triangles);
     cost.ray_ns = ray_line.fixed + ray_line.per_unit * ray_unit(structure, triangles);
     cost.bytes = lines.bytes.fixed + lines.bytes.per_unit * triangles;
-    if (structure == Structure::linear_scan && !worth_gathering(workload)) {
-        cost.ray_ns += cost.build_ns - lines.build_ns.fixed;
-        cost.build_ns = lines.build_ns.fixed;
-        cost.bytes = lines.bytes.fixed;
-    }
     cost.error = std::max(lines.build_ns.residual, ray_line.residual);
+    if (structure == Structure::linear_scan && !worth_gathering(workload)) return scan_in_place(constants, cost);
     return cost;
 }
 

@@ -61,6 +61,8 @@ private:
             PlannedCandidate candidate;
             candidate.structure = structure;
             candidate.predicted = raywise::predict(structure, request_.profile->constants, features, request_.workload);
+            if (structure == Structure::linear_scan && exceeds_limit(candidate.predicted.bytes))
+                candidate.predicted = scan_in_place(request_.profile->constants, candidate.predicted);
             if (is_ready(structure)) {
                 candidate.predicted.build_ns = 0.0;
                 candidate.predicted.bytes = 0.0;

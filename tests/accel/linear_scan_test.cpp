@@ -206,13 +206,13 @@ TEST(LinearScan, AnswersFarFromTheOrigin) {
 }
 
 TEST(LinearScan, AnswersRaysFromVeryFarAway) {
-    const auto world = world_of(ball(20, 1.0), every_layout()[0]);
+    const auto world = world_of(ball(6, 1.0), every_layout()[0]);
     const Triangles triangles = world->triangles();
     const Box& bounds = world->primitives().bounds();
     Random random(5);
     std::vector<Ray> rays;
     for (const double distance : {5.0, 1e3, 1e6, 1e9, 1e15, 1e17, 1e18, 1e20, 1e30, 1e300}) {
-        for (int i = 0; i < 20; ++i) {
+        for (int i = 0; i < 12; ++i) {
             const Vec3 target = interesting_point(triangles, bounds, random);
             Vec3 direction = i % 2 == 0 ? random.direction() : Vec3(0.0);
             if (i % 2 == 1) direction[i % 3] = 1.0; // hits from everywhere
@@ -220,15 +220,30 @@ TEST(LinearScan, AnswersRaysFromVeryFarAway) {
         }
     }
     const Expected expected(*world, rays);
-    EXPECT_GT(expected.hits(), 100u);
+    EXPECT_GT(expected.hits(), 60u);
+    expect_answers_everywhere(*world, expected);
+}
+
+// A triangle that is a line in float32, before a ray of which float32 knows nothing.
+TEST(LinearScan, SeesASliverThatFloat32DoesNot) {
+    Triangles triangles = {{Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1e-200, 1e-200, 0)}};
+    const auto world = world_of(triangles, {"float64 in threes", Scalar::float64, 0, false, false});
+    std::vector<Ray> rays;
+    for (const double distance : {1.0, 1e3, 1e12, 1e30, 1e300}) {
+        rays.push_back({{-distance, 2.5e-201, 0.0}, 0.0, {1, 0, 0}, infinity});
+        rays.push_back({{2.5e-201, distance, 0.0}, 0.0, {0, -1, 0}, infinity});
+        rays.push_back({{-distance, -2.5e-201, 0.0}, 0.0, {1, 0, 0}, infinity});
+    }
+    const Expected expected(*world, rays);
+    EXPECT_EQ(expected.hits(), 10u);
     expect_answers_everywhere(*world, expected);
 }
 
 TEST(LinearScan, AnswersForAFinePartOfALargeScene) {
-    Triangles triangles = ball(30, 0.003);
+    Triangles triangles = ball(12, 0.003);
     add_quad(triangles, {-1, -1, -0.5}, {2, 0, 0}, {0, 2, 0});
     add_quad(triangles, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
-    EXPECT_GT(check(*world_of(triangles, every_layout()[0]), 200, 6), 60u);
+    EXPECT_GT(check(*world_of(triangles, every_layout()[0]), 100, 6), 30u);
 }
 
 TEST(LinearScan, GivesTiesToTheLowestNumber) {
@@ -250,7 +265,7 @@ TEST(LinearScan, PassesOverWhatCannotBeHit) {
             c[2] = i % 2 == 0 ? c[0] : c[0] + 2.0 * (c[1] - c[0]);
             if (i % 4 == 0) c = {Vec3(1e38), Vec3(-1e38), Vec3(1e38)}; // far outside of all that can be hit
         }
-        EXPECT_GT(check(*world_of(triangles, layout), 60, 8), 20u);
+        EXPECT_GT(check(*world_of(triangles, layout), 30, 8), 8u);
 
         World invalid;
         std::vector<Vec3> vertices;
@@ -269,7 +284,7 @@ TEST(LinearScan, PassesOverWhatCannotBeHit) {
         invalid.add(vertices, indices, layout, true);
         invalid.finish();
         EXPECT_GE(invalid.primitives().invalid_count(), 3u);
-        EXPECT_GT(check(invalid, 60, 8), 20u);
+        EXPECT_GT(check(invalid, 30, 8), 8u);
     }
     World nothing;
     nothing.add(Triangles(20, Corners{Vec3(1.0), Vec3(1.0), Vec3(1.0)}), every_layout()[0]);
