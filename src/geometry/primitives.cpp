@@ -61,9 +61,6 @@ std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel
 
 } // namespace
 
-Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes)
-    : Primitives(std::move(meshes), Parallel(1)) {}
-
 Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel)
     : meshes_(std::move(meshes)) {
     std::uint64_t total = 0;

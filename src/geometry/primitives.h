@@ -43,8 +43,8 @@ class Primitives {
 public:
     // The meshes are kept. Counts degenerate triangles and finds the bounds of those that can be hit. Throws
     // Error(ERROR_TOO_MANY) when all meshes together exceed the ids.
-    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes);
-    Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel);
+    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes,
+                        const Parallel& parallel = Parallel(1));
 
     std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }

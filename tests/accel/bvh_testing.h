@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -96,6 +97,7 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     std::vector<PrimitiveHit> all_found;
     scan.all(prepared, all_expected);
     structure.all(prepared, all_found);
+    std::sort(all_found.begin(), all_found.end()); // they may come in any order
     bool same = all_expected.size() == all_found.size();
     for (std::size_t i = 0; same && i < all_expected.size(); ++i) same = same_hit(all_expected[i], all_found[i]);
     EXPECT_TRUE(same) << "all: expected " << all_expected.size() << " hits, found " << all_found.size() << "; "
