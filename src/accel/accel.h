@@ -8,6 +8,7 @@
 #include "geometry/primitives.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,6 +40,10 @@ struct BuildInput {
     const Parallel& parallel;
     Progress&
         progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
+    // So few rays will come that what is made ready for them would take longer than they do; see worth_gathering in
+    // model/cost_functions.h. A structure that can do without may then do so.
+    bool few_rays = false;
+    std::uint64_t memory_limit = 0; // bytes, 0: none; for structures that can do with less
 };
 
 // A hit with the corners of what was hit, which whoever found it had at hand. They are set only where there is a hit.
@@ -63,6 +68,14 @@ public:
     virtual bool any(const UnpreparedRay& ray) const { return any(ray.prepare()); }
     // Every hit once, appended in any order.
     virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
+
+    // The same for many rays at a time: hits[i] and found[i] are those of rays[i]. For structures that gain from it.
+    virtual void closest_many(const PreparedRay* rays, std::size_t count, SurfaceHit* hits) const {
+        for (std::size_t i = 0; i < count; ++i) hits[i] = closest(rays[i]);
+    }
+    virtual void any_many(const PreparedRay* rays, std::size_t count, bool* found) const {
+        for (std::size_t i = 0; i < count; ++i) found[i] = any(rays[i]);
+    }
 
     // Memory of the structure.
     virtual std::size_t bytes() const = 0;

@@ -1,10 +1,12 @@
 #include "geometry/primitives.h"
 
 #include "base/error.h"
+#include "geometry/area_check.h"
 #include "geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -25,9 +27,41 @@ Vec3 scaled_normal(const Corners& c) {
     return exact_normal(c[0], c[1], c[2]);
 }
 
+// Fewer than this are not worth another thread.
+constexpr std::uint64_t triangles_per_task = 32768;
+
+// Returns the triangles that cannot be hit, and extends the bounds by the others.
+std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Box& bounds) {
+    std::vector<std::uint32_t> unhittable;
+    std::mutex mutex;
+    const auto settle = [&](std::uint64_t begin, std::uint64_t end) {
+        std::vector<std::uint32_t> doubtful;
+        Box box;
+        check_areas(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), box, doubtful);
+        const auto has_area = [&](std::uint32_t i) {
+            if (!mesh.is_valid(i)) return false;
+            const Corners c = mesh.corners(i);
+            if (scaled_normal(c) == Vec3(0.0)) return false;
+            for (const Vec3& p : c) box.extend(p);
+            return true;
+        };
+        doubtful.erase(std::remove_if(doubtful.begin(), doubtful.end(), has_area), doubtful.end());
+        const std::lock_guard lock(mutex);
+        bounds.extend(box);
+        unhittable.insert(unhittable.end(), doubtful.begin(), doubtful.end());
+    };
+    if (mesh.triangle_count() <= triangles_per_task) {
+        settle(0, mesh.triangle_count());
+    } else {
+        parallel.for_blocks(mesh.triangle_count(), triangles_per_task, settle);
+    }
+    return unhittable;
+}
+
 } // namespace
 
-Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) : meshes_(std::move(meshes)) {
+Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel)
+    : meshes_(std::move(meshes)) {
     std::uint64_t total = 0;
     first_.reserve(meshes_.size());
     for (const auto& mesh : meshes_) {
@@ -39,26 +73,18 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) 
     }
     count_ = static_cast<std::uint32_t>(total);
 
-    std::vector<bool> unhittable(count_, false);
+    std::vector<std::uint32_t> unhittable;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const TriangleMesh& mesh = *meshes_[m];
-        for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
-            if (!mesh.is_valid(i)) {
-                ++invalid_count_;
-                unhittable[first_[m] + i] = true;
-                continue;
-            }
-            const Corners c = mesh.corners(i);
-            if (scaled_normal(c) == Vec3(0.0)) {
-                ++degenerate_count_;
-                unhittable[first_[m] + i] = true;
-                continue;
-            }
-            for (const Vec3& p : c) bounds_.extend(p);
+        for (const std::uint32_t i : settle_areas(mesh, parallel, bounds_)) {
+            unhittable.push_back(first_[m] + i);
+            ++(mesh.is_valid(i) ? degenerate_count_ : invalid_count_);
         }
     }
     hittable_count_ = count_ - degenerate_count_ - invalid_count_;
-    if (hittable_count_ != count_) unhittable_ = std::move(unhittable);
+    if (unhittable.empty()) return;
+    unhittable_.resize(count_, false);
+    for (const std::uint32_t i : unhittable) unhittable_[i] = true;
 }
 
 Vec3 unit_normal(const Corners& corners) {

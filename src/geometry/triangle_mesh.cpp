@@ -1,11 +1,14 @@
 #include "geometry/triangle_mesh.h"
 
 #include "base/error.h"
+#include "geometry/array_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace raywise {
 namespace {
@@ -70,7 +73,11 @@ void TriangleMesh::check(bool skip_invalid) {
                         std::to_string(arrays_.vertex_count) + " and triangle_count " +
                         std::to_string(arrays_.triangle_count));
     }
-    if (!skip_invalid) {
+    if (skip_invalid) {
+        if (!vertices_are_usable() || (indexed && !indices_are_in_range())) find_invalid();
+        return;
+    }
+    if (!vertices_are_usable()) {
         for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) {
             const Vec3 p = arrays_.vertices.vec3(i);
             if (is_usable(p)) continue;
@@ -78,24 +85,46 @@ void TriangleMesh::check(bool skip_invalid) {
             throw Error(fault.status, "vertices: " + fault.text);
         }
     }
-    if (!indexed && !skip_invalid) return;
+    if (indexed && !indices_are_in_range()) {
+        for (std::uint64_t i = 0; i < 3 * arrays_.triangle_count; ++i) {
+            const std::uint64_t index = arrays_.indices.index(i / 3, static_cast<int>(i % 3));
+            if (index < arrays_.vertex_count) continue;
+            throw Error(Status::ERROR_INDEX_OUT_OF_RANGE,
+                        "triangle " + std::to_string(i / 3) + ": index " + std::to_string(index) +
+                            " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) + " vertices");
+        }
+    }
+}
 
+bool TriangleMesh::vertices_are_usable() const {
+    const StridedArray& vertices = arrays_.vertices;
+    if (vertices.is_packed())
+        return all_within_float32(vertices.data, 3 * arrays_.vertex_count, vertices.scalar == Scalar::float64);
+    bool usable = true;
+    for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) usable = is_usable(vertices.vec3(i)) && usable;
+    return usable;
+}
+
+bool TriangleMesh::indices_are_in_range() const {
+    const StridedArray& indices = arrays_.indices;
+    // check() has seen that vertex_count is below 2^32.
+    if (indices.is_packed() && indices.scalar == Scalar::uint32)
+        return all_below(indices.data, 3 * arrays_.triangle_count, static_cast<std::uint32_t>(arrays_.vertex_count));
+    std::uint64_t largest = 0;
+    for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
+        for (int corner = 0; corner < 3; ++corner) largest = std::max(largest, indices.index(i, corner));
+    }
+    return largest < arrays_.vertex_count || arrays_.triangle_count == 0;
+}
+
+void TriangleMesh::find_invalid() {
+    const bool indexed = arrays_.indices.data != nullptr;
     std::vector<bool> invalid(arrays_.triangle_count, false);
     for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint64_t index =
                 indexed ? arrays_.indices.index(i, corner) : 3 * i + static_cast<std::uint64_t>(corner);
-            if (index >= arrays_.vertex_count) {
-                if (!skip_invalid) {
-                    throw Error(Status::ERROR_INDEX_OUT_OF_RANGE,
-                                "triangle " + std::to_string(i) + ": index " + std::to_string(index) +
-                                    " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) +
-                                    " vertices");
-                }
-                invalid[i] = true;
-            } else if (skip_invalid && !is_usable(arrays_.vertices.vec3(index))) {
-                invalid[i] = true;
-            }
+            if (index >= arrays_.vertex_count || !is_usable(arrays_.vertices.vec3(index))) invalid[i] = true;
         }
         invalid_count_ += invalid[i] ? 1 : 0;
     }
@@ -105,12 +134,16 @@ void TriangleMesh::check(bool skip_invalid) {
 void TriangleMesh::make_copy() {
     const auto pack = [](StridedArray& array, std::uint64_t count, std::vector<std::byte>& copy) {
         const std::size_t size = size_of(array.scalar);
-        copy.resize(count * 3 * size);
-        std::byte* out = copy.data();
-        for (std::uint64_t i = 0; i < count; ++i) {
-            const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
-            for (int component = 0; component < 3; ++component, out += size) {
-                std::memcpy(out, element + component * array.component_stride, size);
+        if (array.is_packed() && count > 0) {
+            copy.assign(array.data, array.data + count * 3 * size);
+        } else {
+            copy.resize(count * 3 * size);
+            std::byte* out = copy.data();
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
+                for (int component = 0; component < 3; ++component, out += size) {
+                    std::memcpy(out, element + component * array.component_stride, size);
+                }
             }
         }
         array.data = copy.data();
@@ -118,16 +151,20 @@ void TriangleMesh::make_copy() {
         array.stride = 3 * array.component_stride;
     };
     if (arrays_.indices.data != nullptr) {
-        // 32 bits hold every valid index. Invalid ones may be cut off: their triangles are never looked at.
-        std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
-        std::byte* out = copy.data();
-        for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
-            for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {
-                const auto index = static_cast<std::uint32_t>(arrays_.indices.index(i, corner));
-                std::memcpy(out, &index, sizeof index);
+        if (arrays_.indices.scalar == Scalar::uint32) {
+            pack(arrays_.indices, arrays_.triangle_count, index_copy_);
+        } else {
+            // 32 bits hold every valid index. Invalid ones may be cut off: their triangles are never looked at.
+            std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
+            std::byte* out = copy.data();
+            for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
+                for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {
+                    const auto index = static_cast<std::uint32_t>(arrays_.indices.index(i, corner));
+                    std::memcpy(out, &index, sizeof index);
+                }
             }
+            index_copy_ = std::move(copy);
         }
-        index_copy_ = std::move(copy);
         arrays_.indices = {index_copy_.data(), 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), Scalar::uint32};
         // A null pointer means "no indices"; an empty vector's may be null.
         static const std::byte none{};

@@ -35,6 +35,9 @@ struct StridedArray {
     double number(std::uint64_t element, int component = 0) const;       // float32 or float64
     std::uint64_t index(std::uint64_t element, int component = 0) const; // uint32 or uint64
     Vec3 vec3(std::uint64_t element) const;                              // float32 or float64
+
+    bool has_rows() const { return component_stride == static_cast<std::ptrdiff_t>(size_of(scalar)); } // side by side
+    bool is_packed() const { return has_rows() && stride == 3 * component_stride; } // of three components
 };
 
 // Written for speed, and inline: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.
@@ -94,6 +97,9 @@ public:
                 arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
     }
 
+    // Where the corners are, for those who read many.
+    const TriangleArrays& arrays() const { return arrays_; }
+
     // False for triangles with an invalid vertex or index; they have no corners.
     bool is_valid(std::uint32_t triangle) const { return invalid_.empty() || !invalid_[triangle]; }
     std::uint64_t invalid_count() const { return invalid_count_; }
@@ -103,6 +109,9 @@ public:
 
 private:
     void check(bool skip_invalid);
+    bool vertices_are_usable() const;
+    bool indices_are_in_range() const;
+    void find_invalid();
     void make_copy();
 
     TriangleArrays arrays_;

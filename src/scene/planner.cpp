@@ -61,6 +61,8 @@ private:
             PlannedCandidate candidate;
             candidate.structure = structure;
             candidate.predicted = raywise::predict(structure, request_.profile->constants, features, request_.workload);
+            if (structure == Structure::linear_scan && exceeds_limit(candidate.predicted.bytes))
+                candidate.predicted = scan_in_place(request_.profile->constants, candidate.predicted);
             if (is_ready(structure)) {
                 candidate.predicted.build_ns = 0.0;
                 candidate.predicted.bytes = 0.0;
@@ -90,7 +92,9 @@ private:
                                {constants.primitive_test_ns, constants.node_step_ns},
                                request_.view,
                                parallel_,
-                               progress_};
+                               progress_,
+                               !worth_gathering(request_.workload),
+                               request_.memory_limit};
         std::shared_ptr<const Accel> accel = build(structure, input);
         candidate.actual_build_ns = ns_since(start);
         candidate.actual_bytes = accel->bytes();

@@ -1,13 +1,14 @@
 // What the tests of the hierarchies share: scenes, rays, and the comparison with the linear scan, bit by bit.
 #pragma once
 
-#include "accel/linear_scan.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/primitives.h"
+#include "oracle/plain_scan.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -85,7 +86,7 @@ template <class Structure>
 bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     if (!PreparedRay::is_traceable(ray)) return false;
     const PreparedRay prepared(ray, scene.bounds());
-    const LinearScan scan(scene.input());
+    const oracle::PlainScan scan(scene.input());
     const PrimitiveHit expected = scan.closest(prepared);
     const PrimitiveHit found = structure.closest(prepared);
     EXPECT_TRUE(same_hit(expected, found))
@@ -96,6 +97,7 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     std::vector<PrimitiveHit> all_found;
     scan.all(prepared, all_expected);
     structure.all(prepared, all_found);
+    std::sort(all_found.begin(), all_found.end()); // they may come in any order
     bool same = all_expected.size() == all_found.size();
     for (std::size_t i = 0; same && i < all_expected.size(); ++i) same = same_hit(all_expected[i], all_found[i]);
     EXPECT_TRUE(same) << "all: expected " << all_expected.size() << " hits, found " << all_found.size() << "; "
@@ -110,7 +112,7 @@ bool expect_same_with_intervals(Scene& scene, const Structure& structure, Ray ra
     const bool hit = expect_same(scene, structure, ray);
     const PreparedRay prepared(ray, scene.bounds());
     std::vector<PrimitiveHit> hits;
-    LinearScan(scene.input()).all(prepared, hits);
+    oracle::PlainScan(scene.input()).all(prepared, hits);
     if (hits.empty()) return hit;
     const double first = prepared.to_caller(hits.front().t);
     const double last = prepared.to_caller(hits.back().t);

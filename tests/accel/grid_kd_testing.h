@@ -2,10 +2,10 @@
 // are hard for such scenes, and the one question that matters: are the answers those of the linear scan, bit for bit?
 #pragma once
 
-#include "accel/linear_scan.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/primitives.h"
+#include "oracle/plain_scan.h"
 
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ void compare(World& world, const Structure& structure, const Ray& ray, std::vect
     hits.clear();
     if (!PreparedRay::is_traceable(ray)) return;
     const PreparedRay prepared(ray, world.bounds());
-    const LinearScan judge(world.input());
+    const oracle::PlainScan judge(world.input());
     EXPECT_TRUE(bits_equal(judge.closest(prepared), structure.closest(prepared)))
         << "closest: " << judge.closest(prepared).primitive << " became " << structure.closest(prepared).primitive
         << "; " << describe(ray);

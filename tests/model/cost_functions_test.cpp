@@ -93,5 +93,29 @@ TEST(Predict, TellsTheLargerMisfit) {
     EXPECT_DOUBLE_EQ(error(RayKind::shadow), 0.3);
 }
 
+// A scan that reads the caller's arrays builds and keeps nothing; its rays gather on their way.
+TEST(Predict, HasFewRaysScanInPlace) {
+    MachineConstants constants;
+    StructureConstants& scan = constants.structures[Structure::linear_scan];
+    scan.build_ns = {100, 4, 0.1};
+    for (CostLine& line : scan.ray_ns) line = {50, 0.5, 0.2};
+    scan.bytes = {120, 36, 0.0};
+    SceneFeatures features;
+    features.triangles = 1000;
+    for (const std::optional<std::uint64_t> rays :
+         {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1000)}) {
+        EXPECT_TRUE(worth_gathering({rays, RayKind::any}));
+        const Cost cost = predict(Structure::linear_scan, constants, features, {rays, RayKind::any});
+        EXPECT_DOUBLE_EQ(cost.build_ns, 4100);
+        EXPECT_DOUBLE_EQ(cost.ray_ns, 550);
+        EXPECT_DOUBLE_EQ(cost.bytes, 36120);
+    }
+    EXPECT_FALSE(worth_gathering({1, RayKind::any}));
+    const Cost cost = predict(Structure::linear_scan, constants, features, {1, RayKind::any});
+    EXPECT_DOUBLE_EQ(cost.build_ns, 100);
+    EXPECT_DOUBLE_EQ(cost.ray_ns, 4550);
+    EXPECT_DOUBLE_EQ(cost.bytes, 120);
+}
+
 } // namespace
 } // namespace raywise

@@ -2,6 +2,7 @@
 
 #include "accel/linear_scan.h"
 #include "oracle/judge.h"
+#include "oracle/plain_scan.h"
 
 #include <algorithm>
 #include <cstring>
@@ -200,8 +201,17 @@ Comparison compare_with_judge(const Scene& scene, const std::vector<Ray>& rays) 
     const Primitives primitives = primitives_of(scene);
     const Parallel parallel(1);
     Progress progress;
-    const LinearScan linear_scan(BuildInput{primitives, {}, std::nullopt, parallel, progress});
-    for (const Ray& ray : rays) Trial(scene, judge, primitives, linear_scan, ray, result);
+    const BuildInput input{primitives, {}, std::nullopt, parallel, progress};
+    BuildInput few_rays = input;
+    few_rays.few_rays = true;
+    // Both ways of reading the triangles in turn.
+    const LinearScan gathered(input);
+    const LinearScan in_place(few_rays);
+    bool odd = false;
+    for (const Ray& ray : rays) {
+        Trial(scene, judge, primitives, odd ? in_place : gathered, ray, result);
+        odd = !odd;
+    }
     return result;
 }
 
@@ -209,7 +219,9 @@ Comparison compare_with_linear_scan(Structure structure, const Scene& scene, con
                                     const std::optional<ViewFrame>& view) {
     Comparison result;
     const Primitives primitives = primitives_of(scene);
-    const Built expected(Structure::linear_scan, primitives, std::nullopt);
+    const Parallel parallel(1);
+    Progress progress;
+    const PlainScan expected(BuildInput{primitives, {}, std::nullopt, parallel, progress});
     const Built tested(structure, primitives, view);
     const auto fault = [&](const Ray& ray, const std::string& text) {
         if (result.faults.size() < most_faults) {
@@ -219,7 +231,7 @@ Comparison compare_with_linear_scan(Structure structure, const Scene& scene, con
     };
     for (const Ray& ray : rays) {
         const PreparedRay prepared(ray, primitives.bounds());
-        const PrimitiveHit wanted = expected.accel->closest(prepared);
+        const PrimitiveHit wanted = expected.closest(prepared);
         const PrimitiveHit closest = tested.accel->closest(prepared);
         if (!same_bits(wanted, closest))
             fault(ray, "closest: " + describe(closest) + " instead of " + describe(wanted));
@@ -228,7 +240,7 @@ Comparison compare_with_linear_scan(Structure structure, const Scene& scene, con
 
         std::vector<PrimitiveHit> all_wanted;
         std::vector<PrimitiveHit> all(1); // must be appended to, not replaced
-        expected.accel->all(prepared, all_wanted);
+        expected.all(prepared, all_wanted);
         tested.accel->all(prepared, all);
         if (all.empty() || all.front().is_hit()) fault(ray, "all: changes what was in the list before");
         all.erase(all.begin());

@@ -90,6 +90,35 @@ TEST(Planner, KeepsToTheMemoryLimit) {
     EXPECT_TRUE(scene->plan().candidate(B).over_limit);
 }
 
+TEST(Planner, HasTheScanGatherForManyRaysOnly) {
+    const auto bytes_for = [](std::optional<std::uint64_t> rays, std::uint64_t limit) {
+        const auto scene = make_scene(make_soup(1000), three_steps(), [&](Scene& s) {
+            s.set_expected({rays, RayKind::any}, {});
+            s.set_structure(L);
+            s.set_memory_limit(limit);
+        });
+        return scene->plan().bytes;
+    };
+    EXPECT_LT(bytes_for(1, 0), 1000u);
+    EXPECT_GE(bytes_for(1000, 0), 36000u);
+    EXPECT_GE(bytes_for(std::nullopt, 0), 36000u);
+    EXPECT_LT(bytes_for(1000, 36000), 1000u) << "it can do without";
+}
+
+// Of all structures only the scan fits, and only as it reads the triangles in place.
+TEST(Planner, KnowsThatTheScanCanDoWithoutMemory) {
+    const auto profile = make_profile([](MachineConstants& constants) {
+        for (const Structure structure : all_structures()) constants.structures[structure].bytes = {200, 36, 0.0};
+    });
+    const auto scene = make_scene(make_soup(1000), profile, [](Scene& s) {
+        s.set_expected({1'000'000, RayKind::any}, {});
+        s.set_memory_limit(2000);
+    });
+    EXPECT_EQ(scene->plan().chosen, L);
+    EXPECT_FALSE(scene->plan().candidate(L).over_limit);
+    EXPECT_LT(scene->plan().bytes, 2000u);
+}
+
 TEST(Planner, RefusesALimitThatNothingFits) {
     for (const bool forced : {false, true}) {
         try {

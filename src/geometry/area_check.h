@@ -1,0 +1,18 @@
+// Which triangles certainly have area, and how far those reach: what can be said of a mesh without exact arithmetic, at the speed of
+// reading it.
+#pragma once
+
+#include "base/box.h"
+#include "geometry/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace raywise {
+
+// Of a mesh's triangles first ... end - 1: appends those that may be invalid or without area to `doubtful`, and extends `bounds` by the
+// others.
+void check_areas(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Box& bounds,
+                 std::vector<std::uint32_t>& doubtful);
+
+} // namespace raywise
