@@ -69,7 +69,10 @@ public:
     // Every hit once, appended in any order.
     virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
 
-    // The same for many rays at a time: hits[i] and found[i] are those of rays[i]. For structures that gain from it.
+    // How many rays the next two would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
+    // that follow near ones.
+    virtual std::size_t rays_at_a_time() const { return 1; }
+    // The same for many rays at a time: hits[i] and found[i] are those of rays[i].
     virtual void closest_many(const PreparedRay* rays, std::size_t count, SurfaceHit* hits) const {
         for (std::size_t i = 0; i < count; ++i) hits[i] = closest(rays[i]);
     }

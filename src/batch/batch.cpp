@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace raywise {
@@ -24,36 +25,73 @@ void store(std::byte* address, T value) {
     std::memcpy(address, &value, sizeof value); // the caller's arrays need not be aligned
 }
 
-// Runs body(i, ray, skip) for all rays, counts those with a NaN, and notes the time.
+// Calls body(begin, end) for all rays, on several threads, each returning how many of its rays held a NaN. Returns the sum, and notes the
+// time.
 template <class Body>
-std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
+std::uint64_t for_rays(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     std::atomic<std::uint64_t> invalid{0};
     parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
-        RayOrder order(tracer.primitives().bounds());
-        std::vector<Ray> block;
-        std::vector<std::uint32_t> skipped;
-        std::uint64_t invalid_here = 0;
-        for (std::uint64_t first = begin; first < end; first += rays_per_order) {
-            block.resize(std::min(rays_per_order, end - first));
-            for (std::size_t k = 0; k < block.size(); ++k) {
-                block[k] = rays.ray(first + k);
-                invalid_here += block[k].has_nan() ? 1 : 0;
-            }
-            const std::vector<std::uint32_t>& sorted = order.sort(block);
-            for (std::size_t i = 0; i < sorted.size(); ++i) {
-                __builtin_prefetch(&block[sorted[std::min(i + 4, sorted.size() - 1)]]);
-                const std::uint32_t k = sorted[i];
-                body(first + k, block[k], rays.skip.of_ray(first + k, tracer.primitives(), skipped));
-            }
-        }
-        invalid.fetch_add(invalid_here, std::memory_order_relaxed);
+        invalid.fetch_add(body(begin, end), std::memory_order_relaxed);
     });
     const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     tracer.usage().rays.fetch_add(rays.count, std::memory_order_relaxed);
     tracer.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns), std::memory_order_relaxed);
     return invalid.load();
+}
+
+// Reads rays first ... first + block.size() - 1.
+std::uint64_t read_block(const RayArrays& rays, std::uint64_t first, std::vector<Ray>& block) {
+    std::uint64_t invalid = 0;
+    for (std::size_t k = 0; k < block.size(); ++k) {
+        block[k] = rays.ray(first + k);
+        invalid += block[k].has_nan() ? 1 : 0;
+    }
+    return invalid;
+}
+
+// answer(i, ray, skip) for each ray: near ones one after the other.
+template <class Answer>
+std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Answer& answer) {
+    return for_rays(tracer, rays, parallel, [&](std::uint64_t begin, std::uint64_t end) {
+        RayOrder order(tracer.primitives().bounds());
+        std::vector<Ray> block;
+        std::vector<std::uint32_t> skipped;
+        std::uint64_t invalid = 0;
+        for (std::uint64_t first = begin; first < end; first += rays_per_order) {
+            block.resize(std::min(rays_per_order, end - first));
+            invalid += read_block(rays, first, block);
+            const std::vector<std::uint32_t>& sorted = order.sort(block);
+            for (std::size_t i = 0; i < sorted.size(); ++i) {
+                __builtin_prefetch(&block[sorted[std::min(i + 4, sorted.size() - 1)]]);
+                const std::uint32_t k = sorted[i];
+                answer(first + k, block[k], rays.skip.of_ray(first + k, tracer.primitives(), skipped));
+            }
+        }
+        return invalid;
+    });
+}
+
+// answer(first, rays, skips, count) for as many rays at a time as the structure asks for.
+template <class Answer>
+std::uint64_t for_each_group(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel,
+                             const Answer& answer) {
+    const std::size_t size = tracer.accel().rays_at_a_time();
+    return for_rays(tracer, rays, parallel, [&](std::uint64_t begin, std::uint64_t end) {
+        std::vector<Ray> block;
+        std::vector<std::vector<std::uint32_t>> skipped(size);
+        std::vector<SkipList> skips(size);
+        std::uint64_t invalid = 0;
+        for (std::uint64_t first = begin; first < end; first += size) {
+            block.resize(std::min<std::uint64_t>(size, end - first));
+            invalid += read_block(rays, first, block);
+            for (std::size_t k = 0; k < block.size(); ++k)
+                skips[k] = rays.skip.of_ray(first + k, tracer.primitives(), skipped[k]);
+            answer(first, block.data(), skips.data(), block.size());
+        }
+        return invalid;
+    });
 }
 
 } // namespace
@@ -107,16 +145,32 @@ void HitArrays::put(std::uint64_t element, const Hit& hit) const {
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel) {
-    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
-        hits.put(i, tracer.closest(ray, skip));
-    });
+    if (tracer.accel().rays_at_a_time() == 1) {
+        return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
+            hits.put(i, tracer.closest(ray, skip));
+        });
+    }
+    return for_each_group(tracer, rays, parallel,
+                          [&](std::uint64_t first, const Ray* group, const SkipList* skips, std::size_t count) {
+                              std::vector<Hit> found(count);
+                              tracer.closest_many(group, skips, count, found.data());
+                              for (std::size_t k = 0; k < count; ++k) hits.put(first + k, found[k]);
+                          });
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel) {
-    return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
-        occluded.put_integer(i, tracer.any(ray, skip) ? 1 : 0);
-    });
+    if (tracer.accel().rays_at_a_time() == 1) {
+        return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
+            occluded.put_integer(i, tracer.any(ray, skip) ? 1 : 0);
+        });
+    }
+    return for_each_group(tracer, rays, parallel,
+                          [&](std::uint64_t first, const Ray* group, const SkipList* skips, std::size_t count) {
+                              const auto found = std::make_unique<bool[]>(count);
+                              tracer.any_many(group, skips, count, found.get());
+                              for (std::size_t k = 0; k < count; ++k) occluded.put_integer(first + k, found[k] ? 1 : 0);
+                          });
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,

@@ -36,6 +36,37 @@ bool Tracer::any(const Ray& ray, SkipList skip) const {
     return is_traceable(ray) && accel_->any(UnpreparedRay{ray, primitives_->bounds(), skip});
 }
 
+Tracer::Traceable Tracer::traceable(const Ray* rays, const SkipList* skips, std::size_t count) const {
+    Traceable result;
+    result.rays.reserve(count);
+    result.index.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!is_traceable(rays[i])) continue;
+        result.rays.emplace_back(rays[i], primitives_->bounds(), skips[i]);
+        result.index.push_back(i);
+    }
+    return result;
+}
+
+void Tracer::closest_many(const Ray* rays, const SkipList* skips, std::size_t count, Hit* hits) const {
+    const Traceable those = traceable(rays, skips, count);
+    std::vector<SurfaceHit> found(those.rays.size());
+    accel_->closest_many(those.rays.data(), those.rays.size(), found.data());
+    std::fill_n(hits, count, Hit{});
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const std::size_t i = those.index[k];
+        if (found[k].is_hit()) hits[i] = to_caller(unit_of(rays[i]), found[k], found[k].corners);
+    }
+}
+
+void Tracer::any_many(const Ray* rays, const SkipList* skips, std::size_t count, bool* found) const {
+    const Traceable those = traceable(rays, skips, count);
+    const auto answers = std::make_unique<bool[]>(those.rays.size());
+    accel_->any_many(those.rays.data(), those.rays.size(), answers.get());
+    std::fill_n(found, count, false);
+    for (std::size_t k = 0; k < those.index.size(); ++k) found[those.index[k]] = answers[k];
+}
+
 void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
     hits.clear();
     if (!is_traceable(ray)) return;

@@ -6,6 +6,7 @@
 #include "geometry/primitives.h"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -40,6 +41,9 @@ public:
     // skip: numbers of this scene's primitives.
     Hit closest(const Ray& ray, SkipList skip = {}) const;
     bool any(const Ray& ray, SkipList skip = {}) const;
+    // The same for `count` rays, each with its skip list.
+    void closest_many(const Ray* rays, const SkipList* skips, std::size_t count, Hit* hits) const;
+    void any_many(const Ray* rays, const SkipList* skips, std::size_t count, bool* found) const;
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
     void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
 
@@ -50,6 +54,12 @@ public:
     Usage& usage() const { return *usage_; }
 
 private:
+    // Those of many rays that can hit something.
+    struct Traceable {
+        std::vector<PreparedRay> rays;
+        std::vector<std::size_t> index;
+    };
+    Traceable traceable(const Ray* rays, const SkipList* skips, std::size_t count) const;
     bool is_traceable(const Ray& ray) const;
     Hit to_caller(const RayUnit& unit, const PrimitiveHit& hit, const Corners& corners) const;
 
