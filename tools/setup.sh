@@ -13,6 +13,7 @@ readonly EXIT_MISSING=3
 readonly TABLE=$ROOT/tools/packages.txt
 readonly REQUIREMENTS=$ROOT/bindings/python/requirements-test.txt
 readonly PEERS_REQUIREMENTS=$ROOT/tests/contract/peers/requirements.txt
+readonly BENCH_REQUIREMENTS=$ROOT/tests/bench/requirements.txt
 readonly LOGS=$ROOT/build/setup
 
 check_only=no
@@ -346,6 +347,9 @@ main() {
     fi
     if needs peers; then
         make_venv "$PEERS_VENV" "$PEERS_REQUIREMENTS"
+    fi
+    if needs bench; then
+        make_venv "$BENCH_VENV" "$BENCH_REQUIREMENTS"
     fi
     if needs test; then
         fetch_crates

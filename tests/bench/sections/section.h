@@ -1,0 +1,28 @@
+// The parts of the benchmark, in one table.
+#pragma once
+
+#include "bench/session.h"
+
+#include <string>
+#include <vector>
+
+namespace raywise::bench {
+
+struct Section {
+    const char* name;
+    const char* description;
+    void (*measure)(SceneUnderTest& scene);
+    std::string (*table)(const Session& session); // of all scenes
+};
+
+// In the order they run.
+const std::vector<Section>& sections();
+
+// --- theirs ---
+
+void measure_single(SceneUnderTest& scene);
+std::string single_table(const Session& session);
+void measure_build(SceneUnderTest& scene);
+std::string build_table(const Session& session);
+
+} // namespace raywise::bench
