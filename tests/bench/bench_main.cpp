@@ -1,4 +1,5 @@
 // raywise_bench: raywise beside its peers, on the same rays, in one process, taking turns.
+#include "bench/memory_process.h"
 #include "bench/report.h"
 #include "bench/sections/section.h"
 #include "bench/session.h"
@@ -15,6 +16,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
+
+#include <unistd.h>
 
 namespace raywise::bench {
 namespace {
@@ -22,12 +26,14 @@ namespace {
 struct CommandLine {
     Options options;
     std::string library;
-    SubjectFiles subject_files;
+    SubjectFiles subject_files{"libembree3.so.3", {}};
     SceneFiles scene_files;
     std::string json;
     std::string commit;
     std::string command;
     bool list = false;
+    std::string memory_of; // what a process of its own is started for
+    std::string stored_mesh;
 };
 
 std::vector<std::string> section_names() {
@@ -63,6 +69,17 @@ Report report_of(const Session& session, const TakingPart& all, const CommandLin
     return report;
 }
 
+// Runs this program with the same libraries.
+std::vector<std::string> own_command(const CommandLine& line) {
+    return {"/proc/" + std::to_string(::getpid()) + "/exe",
+            "--library",
+            line.library,
+            "--embree3",
+            line.subject_files.embree3,
+            "--embree4",
+            line.subject_files.embree4};
+}
+
 void run(const CommandLine& line) {
     TakingPart all = who_takes_part(line.library, line.subject_files, line.options.subjects, line.options.quick);
     if (line.list) {
@@ -70,7 +87,13 @@ void run(const CommandLine& line) {
         for (const std::string& reason : all.left_out) std::printf("left out: %s\n", reason.c_str());
         return;
     }
-    Session session{line.options, effort_of(line.options), *all.ours, all.subjects, this_machine().threads, {}, {}};
+    if (!line.memory_of.empty()) {
+        for (const auto& subject : all.subjects)
+            if (subject->name() == line.memory_of) return print_memory(*subject, line.stored_mesh);
+        throw std::runtime_error("nobody is called " + line.memory_of);
+    }
+    Session session{line.options,           effort_of(line.options), *all.ours, all.subjects,
+                    this_machine().threads, own_command(line),       {},        {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {
         if (line.options.scenes.empty() ? row.quick || !line.options.quick : wanted(line.options.scenes, row.name))
@@ -141,7 +164,8 @@ int main_of(int argc, char** argv) {
     app.add_option("--commit", line.commit, "of the sources, for the report");
     app.add_option("--command", line.command, "what was typed, for the report");
     app.add_flag("--list", line.list, "who would take part");
-    line.subject_files.embree3 = "libembree3.so.3";
+    app.add_option("--memory-of", line.memory_of)->group("");
+    app.add_option("--stored-mesh", line.stored_mesh)->group("");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -37,6 +37,7 @@ nlohmann::ordered_json rows_of(const Cells& cells) {
             if (!ours.structure.empty()) row["structure"] = ours.structure;
             if (ours.hit_rate >= 0.0) row["hit_rate"] = ours.hit_rate;
             if (ours.extrapolated) row["extrapolated"] = true;
+            if (ours.told >= 0.0) row["told"] = ours.told;
             if (best == nullptr) {
                 row["peer"] = row["peer_value"] = row["ratio"] = nullptr;
                 rows.push_back(row);
@@ -49,6 +50,7 @@ nlohmann::ordered_json rows_of(const Cells& cells) {
                 pair["peer_value"] = peer.value;
                 pair["peer_spread"] = peer.spread;
                 if (peer.extrapolated) pair["peer_extrapolated"] = true;
+                if (peer.told >= 0.0) pair["peer_told"] = peer.told;
                 pair["ratio"] = cell.ratio(ours, peer);
                 pair["best_peer"] = &peer == best;
                 rows.push_back(pair);

@@ -50,6 +50,7 @@ struct Session {
     const Library& library;
     const Subjects& subjects;
     unsigned all_threads;
+    std::vector<std::string> own_command; // runs this program again with the same libraries
     Cells cells;
     std::vector<std::string> warnings;
 

@@ -22,7 +22,17 @@ const std::vector<Section>& sections();
 
 void measure_single(SceneUnderTest& scene);
 std::string single_table(const Session& session);
+void measure_batch(SceneUnderTest& scene);
+std::string batch_table(const Session& session);
 void measure_build(SceneUnderTest& scene);
 std::string build_table(const Session& session);
+void measure_memory(SceneUnderTest& scene);
+std::string memory_table(const Session& session);
+void measure_totals(SceneUnderTest& scene);
+std::string totals_table(const Session& session);
+void measure_linear_scan(SceneUnderTest& scene);
+std::string linear_scan_table(const Session& session);
+void measure_overhead(SceneUnderTest& scene);
+std::string overhead_table(const Session& session);
 
 } // namespace raywise::bench

@@ -123,7 +123,8 @@ std::unique_ptr<Subject> embree_subject(const EmbreeLibrary& library, const Embr
     Traits traits;
     traits.name = "Embree " + std::to_string(library.major()) + " " + settings.name;
     traits.robust = (settings.flags & RTC_SCENE_FLAG_ROBUST) != 0;
-    traits.totals = settings.totals;
+    traits.totals = settings.contends;
+    traits.batches = settings.contends && settings.quality != RTC_BUILD_QUALITY_LOW;
     traits.calls = {Call::single, Call::packet};
     return std::make_unique<Embree>(std::move(traits), library, settings);
 }

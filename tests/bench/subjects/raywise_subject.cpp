@@ -170,6 +170,7 @@ std::unique_ptr<Subject> raywise_subject(std::string name, const Library& librar
     traits.robust = true;
     traits.chooses = structure == nullptr;
     traits.totals = structure == nullptr;
+    traits.batches = true;
     traits.calls = {Call::single, Call::batch};
     return std::make_unique<Raywise>(std::move(traits), library, structure);
 }

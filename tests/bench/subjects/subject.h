@@ -81,6 +81,7 @@ struct Traits {
     bool chooses = false; // its structure depends on which and how many rays are expected
     bool slow = false;    // kept away from large scenes and long runs
     bool totals = false;  // takes part in the totals from cold
+    bool batches = false; // and in the batches of many rays
     std::vector<Call> calls;
 };
 

@@ -1,6 +1,7 @@
 #include "bench/subjects/subject_list.h"
 
 #include "bench/session.h"
+#include "bench/subjects/cgal_subject.h"
 #include "bench/subjects/embree_subject.h"
 #include "bench/subjects/raywise_subject.h"
 
@@ -65,6 +66,8 @@ TakingPart who_takes_part(const std::string& library, const SubjectFiles& files,
         all.left_out.push_back("Embree 4: no library was given");
     else
         add_embree(all, files.embree4, "Embree 4", quick);
+    all.subjects.push_back(cgal_subject());
+    all.versions.push_back("CGAL " + cgal_version());
     // The first is the tracer of the rays that start on surfaces, and stays.
     all.subjects.erase(
         std::remove_if(all.subjects.begin() + 1, all.subjects.end(),
