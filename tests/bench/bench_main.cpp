@@ -92,8 +92,15 @@ void run(const CommandLine& line) {
             if (subject->name() == line.memory_of) return print_memory(*subject, line.stored_mesh);
         throw std::runtime_error("nobody is called " + line.memory_of);
     }
-    Session session{line.options,           effort_of(line.options), *all.ours, all.subjects,
-                    this_machine().threads, own_command(line),       {},        {}};
+    Session session{line.options,
+                    effort_of(line.options),
+                    *all.ours,
+                    all.subjects,
+                    this_machine().threads,
+                    own_command(line),
+                    {},
+                    {},
+                    {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {
         if (line.options.scenes.empty() ? row.quick || !line.options.quick : wanted(line.options.scenes, row.name))
@@ -117,7 +124,10 @@ void run(const CommandLine& line) {
         }
         SceneUnderTest scene(session, rows[i]->name, std::move(mesh));
         for (std::size_t part = 0; part < parts.size(); ++part) {
-            progress.show(at(part), scene.name() + ", " + parts[part]->description);
+            session.show_progress = [&](const std::string& what) {
+                progress.show(at(part), scene.name() + ", " + what);
+            };
+            session.show_progress(parts[part]->description);
             parts[part]->measure(scene);
         }
         // After each scene: an hour's work should not hang on its last minute.

@@ -8,6 +8,7 @@
 #include "measure/timing.h"
 #include "progress_bar.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ struct Options {
 struct Effort {
     std::uint64_t single_rays;
     std::uint64_t batch_rays;
-    double single_pass_ns; // rays are fewer where one pass over them would take a peer longer
+    double single_pass_ns; // rays are fewer where one pass over them would take longer
     double batch_pass_ns;
     calibration::TimingLimits timing;       // of rays
     calibration::TimingLimits build_timing; // of builds, which are not repeated to fill a time
@@ -53,6 +54,7 @@ struct Session {
     std::vector<std::string> own_command; // runs this program again with the same libraries
     Cells cells;
     std::vector<std::string> warnings;
+    std::function<void(const std::string& what)> show_progress;
 
     bool wants_rays(const std::string& kind) const;
     bool wants_query(Question question) const;
@@ -95,7 +97,8 @@ struct Entry {
 // Times the entries in turns and adds Mray/s to the cell; warns where hits differ from the first peer's.
 void time_rays(SceneUnderTest& scene, Cell& cell, std::vector<Entry>& entries, const calibration::TimingLimits& limits);
 
-// How many rays of a kind a pass of so many nanoseconds allows, at most `wanted`: by a trial with the first peer that fits.
+// How many rays of a kind a pass of so many nanoseconds allows, at most `wanted`: by a trial with ours and the
+// first peer that fits.
 std::uint64_t affordable_rays(SceneUnderTest& scene, std::size_t kind, Question question, std::uint64_t wanted,
                               double pass_ns);
 

@@ -14,25 +14,27 @@ constexpr const char* shuffled_suffix = ", shuffled";
 // From one point or towards one, as they come from an image: packets are of use.
 bool is_coherent(const std::string& kind) { return kind == "camera" || kind == "shadow"; }
 
-void measure(SceneUnderTest& scene, std::size_t kind, unsigned threads) {
-    Session& session = scene.session();
-    const workloads::RayDistribution& distribution = workloads::ray_distributions()[kind];
-    const Question question = distribution.any_hit ? Question::any : Question::closest;
-    const bool coherent = is_coherent(distribution.name);
-    const RaySet in_image_order = scene.rays(
-        kind, affordable_rays(scene, kind, question, session.effort.batch_rays, session.effort.batch_pass_ns));
-    if (in_image_order.size() == 0) return;
-    const RaySet in_random_order = shuffled(in_image_order, order_seed);
+struct Rays {
+    std::size_t kind;
+    Question question;
+    RaySet in_image_order;
+    RaySet in_random_order;
+};
 
-    Cell cell = scene.cell("batch", distribution.name, question);
-    cell.count = in_image_order.size();
+void measure(SceneUnderTest& scene, const Rays& all, unsigned threads) {
+    Session& session = scene.session();
+    const workloads::RayDistribution& distribution = workloads::ray_distributions()[all.kind];
+    const bool coherent = is_coherent(distribution.name);
+    session.show_progress(std::string("batches, ") + distribution.name + ", threads: " + std::to_string(threads));
+    Cell cell = scene.cell("batch", distribution.name, all.question);
+    cell.count = all.in_image_order.size();
     cell.threads = threads;
     Answers answers; // one for all: the same memory, as warm for each
     std::vector<Entry> entries;
     const auto add = [&](const Subject& subject, Call call, const RaySet& rays, const std::string& label) {
-        const Built& built = scene.built(subject, kind);
+        const Built& built = scene.built(subject, all.kind);
         QueryRequest request{rays};
-        request.question = question;
+        request.question = all.question;
         request.call = call;
         request.threads = threads;
         request.answers = &answers;
@@ -41,14 +43,15 @@ void measure(SceneUnderTest& scene, std::size_t kind, unsigned threads) {
     };
     for (const auto& subject : session.subjects) {
         if (!subject->traits().batches) continue;
-        const RaySet& usual = coherent ? in_image_order : in_random_order;
+        const RaySet& usual = coherent ? all.in_image_order : all.in_random_order;
         if (subject->has(Call::batch)) {
             add(*subject, Call::batch, usual, subject->name());
-            if (coherent) add(*subject, Call::batch, in_random_order, subject->name() + shuffled_suffix);
+            if (coherent && !subject->traits().chooses)
+                add(*subject, Call::batch, all.in_random_order, subject->name() + shuffled_suffix);
         } else {
             add(*subject, Call::single, usual, subject->name());
             if (coherent && subject->has(Call::packet))
-                add(*subject, Call::packet, in_image_order, subject->name() + " packet8");
+                add(*subject, Call::packet, all.in_image_order, subject->name() + " packet8");
         }
     }
     time_rays(scene, cell, entries, session.effort.timing);
@@ -58,12 +61,19 @@ void measure(SceneUnderTest& scene, std::size_t kind, unsigned threads) {
 } // namespace
 
 void measure_batch(SceneUnderTest& scene) {
+    Session& session = scene.session();
     const auto& kinds = workloads::ray_distributions();
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-        if (!scene.session().wants_rays(kinds[kind].name)) continue;
-        if (!scene.session().wants_query(kinds[kind].any_hit ? Question::any : Question::closest)) continue;
-        measure(scene, kind, 1);
-        if (scene.session().all_threads > 1) measure(scene, kind, scene.session().all_threads);
+        if (!session.wants_rays(kinds[kind].name)) continue;
+        const Question question = kinds[kind].any_hit ? Question::any : Question::closest;
+        if (!session.wants_query(question)) continue;
+        const std::uint64_t count =
+            affordable_rays(scene, kind, question, session.effort.batch_rays, session.effort.batch_pass_ns);
+        Rays rays{kind, question, scene.rays(kind, count), {}};
+        if (rays.in_image_order.size() == 0) continue;
+        rays.in_random_order = shuffled(rays.in_image_order, order_seed);
+        measure(scene, rays, 1);
+        if (session.all_threads > 1) measure(scene, rays, session.all_threads);
     }
 }
 

@@ -21,6 +21,7 @@ calibration::Timed timed_build(const Subject& subject, const BuildRequest& reque
 
 void measure(SceneUnderTest& scene, unsigned threads) {
     Session& session = scene.session();
+    session.show_progress("building, threads: " + std::to_string(threads));
     const calibration::Clock clock = threads == 1 ? calibration::processor_ns : calibration::now_ns;
     BuildRequest request{scene.mesh()};
     request.threads = threads;

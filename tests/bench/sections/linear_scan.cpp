@@ -38,6 +38,7 @@ void add(Session& session, Cell cell, const char* query, const std::string& subj
 void measure_linear_scan(SceneUnderTest& scene) {
     Session& session = scene.session();
     if (scene.triangles() > most_triangles || !session.wants_rays("random")) return;
+    session.show_progress("linear scan");
     const std::unique_ptr<Subject> scan = raywise_subject("raywise linear_scan", session.library, "linear_scan");
     Cell cell = scene.cell("linear_scan", "random", Question::closest);
     cell.unit = "ns/triangle";

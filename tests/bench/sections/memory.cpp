@@ -34,6 +34,7 @@ void measure_memory(SceneUnderTest& scene) {
     const StoredMesh stored(scene.mesh());
     for (const auto& subject : session.subjects) {
         if (subject->traits().chooses || !session.fits(*subject, scene.triangles())) continue;
+        session.show_progress("memory, " + subject->name());
         const MemoryFigures figures = memory_in_a_process(session.own_command, subject->name(), stored);
         steady.values.push_back(value_of(*subject, figures.resident, figures.told, scene.triangles()));
         peak.values.push_back(value_of(*subject, figures.peak_resident, figures.peak_told, scene.triangles()));

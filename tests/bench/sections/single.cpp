@@ -34,6 +34,8 @@ std::size_t thinned_by(const Built& built, const RaySet& rays, Question question
 
 void measure(SceneUnderTest& scene, std::size_t kind, Question question) {
     Session& session = scene.session();
+    session.show_progress(std::string("single rays, ") + workloads::ray_distributions()[kind].name + ", " +
+                          name_of(question));
     const double pass_ns = session.effort.single_pass_ns;
     const RaySet rays = scene.rays(kind, affordable_rays(scene, kind, question, session.effort.single_rays, pass_ns));
     if (rays.size() == 0) return;

@@ -37,6 +37,8 @@ public:
     void run(unsigned repetitions) {
         if (rays_.size() < most_) return;
         for (unsigned repetition = 0; repetition < repetitions; ++repetition) {
+            scene_.session().show_progress("from cold, " + std::to_string(repetition + 1) + " of " +
+                                           std::to_string(repetitions));
             for (std::size_t turn = 0; turn < totals_.size(); ++turn) {
                 Totals& totals = totals_[(turn + repetition) % totals_.size()];
                 if (totals.subject->traits().chooses)
