@@ -1,4 +1,5 @@
 // raywise_bench: raywise beside its peers, on the same rays, in one process, taking turns.
+#include "bench/export_scene.h"
 #include "bench/memory_process.h"
 #include "bench/report.h"
 #include "bench/sections/section.h"
@@ -32,6 +33,7 @@ struct CommandLine {
     std::string commit;
     std::string command;
     bool list = false;
+    std::string export_folder;
     std::string memory_of; // what a process of its own is started for
     std::string stored_mesh;
 };
@@ -123,6 +125,10 @@ void run(const CommandLine& line) {
             continue;
         }
         SceneUnderTest scene(session, rows[i]->name, std::move(mesh));
+        if (!line.export_folder.empty()) {
+            export_scene(scene, line.export_folder);
+            continue;
+        }
         for (std::size_t part = 0; part < parts.size(); ++part) {
             session.show_progress = [&](const std::string& what) {
                 progress.show(at(part), scene.name() + ", " + what);
@@ -134,6 +140,7 @@ void run(const CommandLine& line) {
         if (!line.json.empty()) save(report_of(session, all, line), line.json);
     }
     progress.finish();
+    if (!line.export_folder.empty()) return;
 
     const Machine& machine = this_machine();
     std::printf("%s, %u threads, %s\n", machine.brand.c_str(), machine.threads, machine.instruction_set.c_str());
@@ -173,6 +180,7 @@ int main_of(int argc, char** argv) {
     app.add_option("--json", line.json, "where the report goes");
     app.add_option("--commit", line.commit, "of the sources, for the report");
     app.add_option("--command", line.command, "what was typed, for the report");
+    app.add_option("--export", line.export_folder, "only write scenes and rays into this folder, for other benchmarks");
     app.add_flag("--list", line.list, "who would take part");
     app.add_option("--memory-of", line.memory_of)->group("");
     app.add_option("--stored-mesh", line.stored_mesh)->group("");

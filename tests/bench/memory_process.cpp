@@ -1,5 +1,6 @@
 #include "bench/memory_process.h"
 
+#include "bench/binary.h"
 #include "bench/meshes.h"
 
 #include <nlohmann/json.hpp>
@@ -16,25 +17,6 @@
 
 namespace raywise::bench {
 namespace {
-
-template <class T>
-void write(std::ostream& out, const std::vector<T>& values) {
-    const std::uint64_t count = values.size();
-    out.write(reinterpret_cast<const char*>(&count), sizeof count);
-    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
-}
-
-template <class T>
-std::vector<T> read(std::istream& in) {
-    std::uint64_t count = 0;
-    in.read(reinterpret_cast<char*>(&count), sizeof count);
-    std::vector<T> values;
-    values.reserve(count + 4); // see make_scene
-    values.resize(count);
-    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
-    if (!in) throw std::runtime_error("the stored mesh breaks off");
-    return values;
-}
 
 // A line of /proc/self/status, in bytes.
 double status_bytes(const std::string& name) {
@@ -68,8 +50,8 @@ StoredMesh::StoredMesh(const workloads::Mesh& mesh) {
     ::close(file);
     path_ = pattern;
     std::ofstream out(path_, std::ios::binary);
-    write(out, mesh.vertices);
-    write(out, mesh.indices);
+    write_values(out, mesh.vertices);
+    write_values(out, mesh.indices);
     out.close();
     if (!out) throw std::runtime_error(path_ + " cannot be written");
 }
@@ -95,8 +77,8 @@ void print_memory(const Subject& subject, const std::string& stored_mesh) {
     workloads::Mesh mesh;
     {
         std::ifstream in(stored_mesh, std::ios::binary);
-        mesh.vertices = read<float>(in);
-        mesh.indices = read<std::uint32_t>(in);
+        mesh.vertices = read_values<float>(in);
+        mesh.indices = read_values<std::uint32_t>(in);
     }
     {
         workloads::Mesh other = procedural_mesh("tiny_box", 12).mesh;

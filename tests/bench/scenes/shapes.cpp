@@ -42,7 +42,7 @@ Mesh in_a_hall(Mesh mesh, double times) {
 }
 
 Mesh long_sticks(std::uint64_t triangles) {
-    constexpr double half_length = 0.125;
+    constexpr double half_length = 0.1;
     constexpr double width = half_length / 500.0;
     workloads::Random random(1);
     Mesh mesh;
