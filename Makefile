@@ -72,6 +72,11 @@ bench: ## speed beside other libraries; reports in build/reports [QUICK=1] [BENC
 	@tools/setup.sh bench
 	@tools/bench.sh
 
+.PHONY: bench-rust
+bench-rust: ## speed beside Rust crates; build/reports/bench-rust.json [QUICK=1] [BENCH_FLAGS='--scene bunny ...']
+	@tools/setup.sh bench bench-rust
+	@tools/bench.sh rust
+
 .PHONY: contract
 contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]
 	@tools/setup.sh native
