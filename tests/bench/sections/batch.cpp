@@ -5,6 +5,8 @@
 
 #include "rays/rays.h"
 
+#include <cstring>
+
 namespace raywise::bench {
 namespace {
 
@@ -20,6 +22,13 @@ struct Rays {
     RaySet in_image_order;
     RaySet in_random_order;
 };
+
+// "E4 HIGH packet8", so that the table fits.
+std::string abbreviated(std::string subject) {
+    constexpr const char* embree = "Embree ";
+    const std::size_t place = subject.find(embree);
+    return place == 0 ? subject.replace(place, std::strlen(embree), "E") : subject;
+}
 
 void measure(SceneUnderTest& scene, const Rays& all, unsigned threads) {
     Session& session = scene.session();
@@ -97,7 +106,7 @@ std::string batch_table(const Session& session) {
             };
             table.add({cell.scene, with_commas(cell.count), std::to_string(cell.threads), rate(ours), rate(mixed),
                        rate(chosen), chosen != nullptr ? chosen->structure : "", rate(peer),
-                       peer != nullptr ? peer->subject : "", over(ours), over(mixed)});
+                       peer != nullptr ? abbreviated(peer->subject) : "", over(ours), over(mixed)});
         }
         if (!table.empty()) text += table.text();
     }
