@@ -23,11 +23,17 @@ struct Rays {
     RaySet in_random_order;
 };
 
-// "E4 HIGH packet8", so that the table fits.
+// "Embree 4 HIGH packet8" as "E4 HIGH p8", so that the table fits.
 std::string abbreviated(std::string subject) {
-    constexpr const char* embree = "Embree ";
-    const std::size_t place = subject.find(embree);
-    return place == 0 ? subject.replace(place, std::strlen(embree), "E") : subject;
+    constexpr struct {
+        const char* words;
+        const char* instead;
+    } abbreviations[] = {{"Embree ", "E"}, {"packet8", "p8"}};
+    for (const auto& abbreviation : abbreviations) {
+        const std::size_t place = subject.find(abbreviation.words);
+        if (place != std::string::npos) subject.replace(place, std::strlen(abbreviation.words), abbreviation.instead);
+    }
+    return subject;
 }
 
 void measure(SceneUnderTest& scene, const Rays& all, unsigned threads) {
@@ -90,10 +96,13 @@ std::string batch_table(const Session& session) {
     std::string text;
     for (const workloads::RayDistribution& distribution : workloads::ray_distributions()) {
         const bool coherent = is_coherent(distribution.name);
-        Table table(std::string("Batches, ") + distribution.name +
-                        (coherent ? " rays in the order of the image" : " rays in random order") + ": Mray/s",
-                    {"scene", "rays", "threads", "bvh", coherent ? "shuffled" : "", "chosen", "", "best peer", "",
-                     "ratio", coherent ? "shuffled" : ""});
+        Table table(
+            std::string("Batches, ") + distribution.name +
+                (coherent ? " rays in the order of the image (mixed: ours in random order; p8: packets of eight)"
+                          : " rays in random order") +
+                ": Mray/s",
+            {"scene", "rays", "thr", "bvh", coherent ? "mixed" : "", "chosen", "", "best peer", "", "ratio",
+             coherent ? "mixed" : ""});
         for (const Cell& cell : session.cells) {
             if (cell.section != "batch" || cell.rays != distribution.name) continue;
             const Value* const ours = cell.of(ours_forced);
