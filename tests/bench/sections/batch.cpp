@@ -96,13 +96,12 @@ std::string batch_table(const Session& session) {
     std::string text;
     for (const workloads::RayDistribution& distribution : workloads::ray_distributions()) {
         const bool coherent = is_coherent(distribution.name);
-        Table table(
-            std::string("Batches, ") + distribution.name +
-                (coherent ? " rays in the order of the image (mixed: ours in random order; p8: packets of eight)"
-                          : " rays in random order") +
-                ": Mray/s",
-            {"scene", "rays", "thr", "bvh", coherent ? "mixed" : "", "chosen", "", "best peer", "", "ratio",
-             coherent ? "mixed" : ""});
+        Table table(std::string("Batches, ") + distribution.name +
+                        (coherent ? " rays in image order (mixed: ours in random order; p8: packets of 8)"
+                                  : " rays in random order") +
+                        ": Mray/s",
+                    {"scene", "rays", "thr", "bvh", coherent ? "mixed" : "", "chosen", "", "best peer", "", "ratio",
+                     coherent ? "mixed" : ""});
         for (const Cell& cell : session.cells) {
             if (cell.section != "batch" || cell.rays != distribution.name) continue;
             const Value* const ours = cell.of(ours_forced);
