@@ -11,7 +11,7 @@ SHELL := /bin/bash
 export PATH := $(CURDIR)/build/toolchain/bin:$(PATH)
 
 # Read by the scripts under tools/ and by build tools.
-export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS PEERS
+export MESH SCENE RAYS OUT DEMO_FLAGS TEST_FLAGS JOBS QUICK SEED CONTRACT_FLAGS PEERS BENCH_FLAGS
 
 CALIBRATE_FLAGS ?=
 
@@ -68,9 +68,14 @@ coverage: ## which lines the C and C++ tests run; pages in build/coverage/report
 	@tools/coverage.sh
 
 .PHONY: bench
-bench: ## build and run the benchmarks; reports in build/reports [QUICK=1]
+bench: ## speed beside other libraries; reports in build/reports [QUICK=1] [BENCH_FLAGS='--scene bunny ...']
 	@tools/setup.sh bench
 	@tools/bench.sh
+
+.PHONY: bench-rust
+bench-rust: ## speed beside Rust crates; build/reports/bench-rust.json [QUICK=1] [BENCH_FLAGS='--scene bunny ...']
+	@tools/setup.sh bench bench-rust
+	@tools/bench.sh rust
 
 .PHONY: contract
 contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]

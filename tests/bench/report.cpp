@@ -38,12 +38,13 @@ nlohmann::ordered_json Ratios::json() const {
 }
 
 void save(const Report& report, const std::string& path) {
-    const nlohmann::ordered_json document = {
+    nlohmann::ordered_json document = {
         {"target", report.target},   {"machine", this_machine().brand + " (" + this_machine().key() + ")"},
         {"commit", report.commit},   {"date", utc_now()},
         {"command", report.command}, {"rows", report.rows},
         {"summary", report.summary},
     };
+    document.update(report.more);
     const std::filesystem::path file(path);
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file);

@@ -31,6 +31,7 @@ struct Report {
     std::string command;
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     nlohmann::ordered_json summary = nlohmann::ordered_json::object();
+    nlohmann::ordered_json more = nlohmann::ordered_json::object(); // members of the benchmark's own
 };
 
 // With machine and date added; makes the folder. Throws std::runtime_error when it cannot be written.

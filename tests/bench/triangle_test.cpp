@@ -183,7 +183,7 @@ public:
                 measure(mesh, structure, table);
             }
         }
-        Report report{"triangle-test", options_.commit, options_.command, {}, {}};
+        Report report{"triangle-test", options_.commit, options_.command, {}, {}, {}};
         report.summary = table.summary();
         report.rows = std::move(table.rows);
         if (!options_.json.empty()) save(report, options_.json);

@@ -1,0 +1,97 @@
+// Rays one by one, in one thread: a call for each.
+#include "bench/sections/section.h"
+#include "bench/table.h"
+
+#include "rays/rays.h"
+
+#include <algorithm>
+
+namespace raywise::bench {
+namespace {
+
+struct Asked {
+    const char* rays;
+    Question question;
+    bool quick;
+};
+
+constexpr Asked questions[] = {
+    {"random", Question::closest, true}, {"camera", Question::closest, true}, {"diffuse", Question::closest, true},
+    {"shadow", Question::any, true},     {"random", Question::any, false},    {"diffuse", Question::any, false},
+};
+
+// A subject that is slow is asked fewer of the same rays, so that it takes no longer than a few passes of the others.
+std::size_t thinned_by(const Built& built, const RaySet& rays, Question question, double pass_ns) {
+    const RaySet few = one_in(rays, std::max<std::size_t>(rays.size() / 100, 1));
+    QueryRequest request{few};
+    request.question = question;
+    const std::unique_ptr<Query> query = built.query(request);
+    const double start = calibration::processor_ns();
+    query->ask(0, few.size());
+    const double ns = (calibration::processor_ns() - start) / static_cast<double>(few.size());
+    return std::max<std::size_t>(1, static_cast<std::size_t>(ns * static_cast<double>(rays.size()) / pass_ns));
+}
+
+void measure(SceneUnderTest& scene, std::size_t kind, Question question) {
+    Session& session = scene.session();
+    session.show_progress(std::string("single rays, ") + workloads::ray_distributions()[kind].name + ", " +
+                          name_of(question));
+    const double pass_ns = session.effort.single_pass_ns;
+    const RaySet rays = scene.rays(kind, affordable_rays(scene, kind, question, session.effort.single_rays, pass_ns));
+    if (rays.size() == 0) return;
+    Cell cell = scene.cell("single", workloads::ray_distributions()[kind].name, question);
+    cell.count = rays.size();
+    std::vector<Entry> entries;
+    for (const auto& subject : session.subjects) {
+        if (!subject->has(Call::single) || !session.fits(*subject, scene.triangles())) continue;
+        const Built& built = scene.built(*subject, kind);
+        const std::size_t stride =
+            subject->traits().slow ? thinned_by(built, rays, question, 4.0 * pass_ns) : std::size_t{1};
+        const RaySet fewer = stride > 1 ? one_in(rays, stride) : RaySet();
+        QueryRequest request{stride > 1 ? fewer : rays};
+        request.question = question;
+        entries.push_back({subject.get(), subject->name(), built.query(request), request.rays.size(),
+                           subject->traits().peer ? std::string() : built.structure()});
+    }
+    time_rays(scene, cell, entries, session.effort.timing);
+    session.cells.push_back(std::move(cell));
+}
+
+} // namespace
+
+void measure_single(SceneUnderTest& scene) {
+    const auto& kinds = workloads::ray_distributions();
+    for (const Asked& asked : questions) {
+        if (scene.session().options.quick && !asked.quick) continue;
+        if (!scene.session().wants_rays(asked.rays) || !scene.session().wants_query(asked.question)) continue;
+        const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                       [&](const auto& other) { return std::string(other.name) == asked.rays; });
+        measure(scene, static_cast<std::size_t>(kind - kinds.begin()), asked.question);
+    }
+}
+
+std::string single_table(const Session& session) {
+    std::string text;
+    for (const Asked& asked : questions) {
+        Table table(
+            std::string("Single calls, 1 thread, ") + asked.rays + " rays, " + name_of(asked.question) + " hit: Mray/s",
+            {"scene", "triangles", "bvh", "chosen", "", "best peer", "", "ratio", "robust peer"});
+        for (const Cell& cell : session.cells) {
+            if (cell.section != "single" || cell.rays != asked.rays || cell.query != name_of(asked.question)) continue;
+            const Value* const ours = cell.of(ours_forced);
+            const Value* const chosen = cell.of(ours_chosen);
+            const Value* const peer = cell.best_peer();
+            const Value* const robust = cell.best_peer([](const Value& value) { return value.robust; });
+            if (ours == nullptr) continue;
+            table.add({cell.scene, with_commas(cell.triangles), digits(ours->value),
+                       chosen != nullptr ? digits(chosen->value) : "", chosen != nullptr ? chosen->structure : "",
+                       peer != nullptr ? digits(peer->value) : "", peer != nullptr ? peer->subject : "",
+                       peer != nullptr ? ratio_text(cell.ratio(*ours, *peer)) : "",
+                       robust != nullptr ? ratio_text(cell.ratio(*ours, *robust)) : ""});
+        }
+        if (!table.empty()) text += table.text();
+    }
+    return text;
+}
+
+} // namespace raywise::bench

@@ -1,0 +1,189 @@
+#include "bench/subjects/raywise_subject.h"
+
+#include <utility>
+
+namespace raywise::bench {
+namespace {
+
+// Ray by ray; rw_ray is made of doubles, which hold float32 without loss.
+template <Question question>
+class SingleQuery : public Query {
+public:
+    SingleQuery(const Library& library, const rw_scene* scene, const RaySet& rays)
+        : intersect_(library.rw_scene_intersect), occluded_(library.rw_scene_occluded), scene_(scene) {
+        rays_.resize(rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                rays_[i].origin[axis] = static_cast<double>(rays.origin[3 * i + axis]);
+                rays_[i].direction[axis] = static_cast<double>(rays.direction[3 * i + axis]);
+            }
+            rays_[i].tmin = static_cast<double>(rays.tmin[i]);
+            rays_[i].tmax = static_cast<double>(rays.tmax[i]);
+        }
+    }
+
+    std::uint64_t ask(std::size_t first, std::size_t last) override {
+        std::uint64_t hits = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            if constexpr (question == Question::any) {
+                std::int32_t occluded = 0;
+                occluded_(scene_, &rays_[i], &occluded);
+                hits += occluded != 0 ? 1 : 0;
+            } else {
+                rw_hit hit;
+                intersect_(scene_, &rays_[i], &hit);
+                hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
+            }
+        }
+        return hits;
+    }
+
+private:
+    decltype(&::rw_scene_intersect) intersect_;
+    decltype(&::rw_scene_occluded) occluded_;
+    const rw_scene* scene_;
+    std::vector<rw_ray> rays_;
+};
+
+class BatchQuery : public Query {
+public:
+    BatchQuery(const Library& library, const rw_scene* scene, const QueryRequest& request)
+        : library_(library),
+          scene_(scene),
+          rays_(request.rays),
+          question_(request.question),
+          answers_(request.answers != nullptr ? *request.answers : own_answers_) {
+        answers_.make_room(rays_.size(), question_);
+        options_.struct_size = sizeof options_;
+        options_.threads = request.threads;
+    }
+
+    std::uint64_t ask(std::size_t first, std::size_t last) override {
+        rw_rays rays{};
+        rays.struct_size = sizeof rays;
+        rays.count = last - first;
+        rays.origin.data = &rays_.origin[3 * first];
+        rays.direction.data = &rays_.direction[3 * first];
+        rays.tmin.data = &rays_.tmin[first];
+        rays.tmax.data = &rays_.tmax[first];
+        std::uint64_t hits = 0;
+        if (question_ == Question::any) {
+            rw_output occluded{};
+            occluded.data = &answers_.occluded[first];
+            library_.check(library_.rw_scene_occluded_batch(scene_, &rays, &occluded, &options_));
+            for (std::size_t i = first; i < last; ++i) hits += answers_.occluded[i];
+        } else {
+            rw_hits results{};
+            results.struct_size = sizeof results;
+            results.t.data = &answers_.t[first];
+            results.uv.data = &answers_.uv[2 * first];
+            results.primitive.data = &answers_.primitive[first];
+            library_.check(library_.rw_scene_intersect_batch(scene_, &rays, &results, &options_));
+            for (std::size_t i = first; i < last; ++i) hits += answers_.primitive[i] != RW_INVALID_ID ? 1 : 0;
+        }
+        return hits;
+    }
+
+private:
+    const Library& library_;
+    const rw_scene* scene_;
+    RaySet rays_;
+    Question question_;
+    Answers own_answers_;
+    Answers& answers_;
+    rw_query_options options_{};
+};
+
+class RaywiseScene : public Built {
+public:
+    RaywiseScene(const Library& library, const char* structure, const BuildRequest& request)
+        : library_(library), scene_(nullptr, library.rw_scene_release) {
+        rw_scene* scene = nullptr;
+        library.check(library.rw_scene_create(nullptr, &scene));
+        scene_.reset(scene);
+        rw_triangles triangles{};
+        triangles.struct_size = sizeof triangles;
+        triangles.flags = RW_TRIANGLES_SHARED;
+        triangles.vertex_count = request.mesh.vertex_count();
+        triangles.vertices.data = request.mesh.vertices.data();
+        triangles.triangle_count = request.mesh.triangle_count();
+        triangles.indices.data = request.mesh.indices.data();
+        library.check(library.rw_scene_add_triangles(scene, &triangles, nullptr));
+        rw_expected_rays expected{};
+        expected.struct_size = sizeof expected;
+        expected.kind = static_cast<std::int32_t>(request.kind) + RW_RAYS_RANDOM;
+        expected.count = request.count;
+        library.check(library.rw_scene_set_expected_rays(scene, &expected));
+        if (structure != nullptr) library.check(library.rw_scene_set_structure(scene, structure));
+        rw_commit_options options{};
+        options.struct_size = sizeof options;
+        options.threads = request.threads;
+        library.check(library.rw_scene_commit(scene, &options));
+    }
+
+    std::unique_ptr<Query> query(const QueryRequest& request) const override {
+        if (request.call == Call::batch) return std::make_unique<BatchQuery>(library_, scene_.get(), request);
+        if (request.question == Question::any)
+            return std::make_unique<SingleQuery<Question::any>>(library_, scene_.get(), request.rays);
+        return std::make_unique<SingleQuery<Question::closest>>(library_, scene_.get(), request.rays);
+    }
+
+    double bytes() const override {
+        const rw_scene_statistics told = statistics();
+        return static_cast<double>(told.structure_bytes + told.geometry_bytes);
+    }
+
+    std::string structure() const override { return statistics().structure; }
+
+private:
+    rw_scene_statistics statistics() const {
+        rw_scene_statistics told{};
+        told.struct_size = sizeof told;
+        library_.check(library_.rw_scene_get_statistics(scene_.get(), &told));
+        return told;
+    }
+
+    const Library& library_;
+    std::unique_ptr<rw_scene, decltype(&::rw_scene_release)> scene_;
+};
+
+class Raywise : public Subject {
+public:
+    Raywise(Traits traits, const Library& library, const char* structure)
+        : Subject(std::move(traits)), library_(library), structure_(structure) {}
+
+    std::unique_ptr<Built> build(const BuildRequest& request) const override {
+        return std::make_unique<RaywiseScene>(library_, structure_, request);
+    }
+
+private:
+    const Library& library_;
+    const char* structure_;
+};
+
+} // namespace
+
+std::unique_ptr<Subject> raywise_subject(std::string name, const Library& library, const char* structure) {
+    Traits traits;
+    traits.name = std::move(name);
+    traits.peer = false;
+    traits.robust = true;
+    traits.chooses = structure == nullptr;
+    traits.totals = structure == nullptr;
+    traits.batches = true;
+    traits.calls = {Call::single, Call::batch};
+    return std::make_unique<Raywise>(std::move(traits), library, structure);
+}
+
+bool has_structure(const Library& library, const std::string& structure) {
+    std::uint32_t count = 0;
+    library.check(library.rw_structure_count(&count));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const char* name = nullptr;
+        library.check(library.rw_structure_name(i, &name));
+        if (structure == name) return true;
+    }
+    return false;
+}
+
+} // namespace raywise::bench
