@@ -15,6 +15,8 @@ class LinearScan final : public Accel {
 public:
     explicit LinearScan(const BuildInput& input);
 
+    using Accel::any;
+    using Accel::closest;
     SurfaceHit closest(const PreparedRay& ray) const override;
     bool any(const PreparedRay& ray) const override;
     void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
