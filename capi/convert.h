@@ -91,7 +91,8 @@ HitArrays read_hits(const rw_hits* hits, std::uint64_t count);
 // long as waiting for the stores to end.
 inline Ray read_ray(const rw_ray* source) {
     static_assert(sizeof(Ray) == sizeof(rw_ray) && offsetof(Ray, tmin) == offsetof(rw_ray, tmin) &&
-                  offsetof(Ray, direction) == offsetof(rw_ray, direction) && offsetof(Ray, tmax) == offsetof(rw_ray, tmax));
+                  offsetof(Ray, direction) == offsetof(rw_ray, direction) &&
+                  offsetof(Ray, tmax) == offsetof(rw_ray, tmax));
     Ray ray;
     std::memcpy(static_cast<void*>(&ray), &required(source, "ray"), sizeof ray);
     return ray;

@@ -36,7 +36,8 @@ HWY_INLINE void set_frame_ray(const UnpreparedRay& unprepared, const SceneFrame&
     const hn::Full256<double> d;
     const hn::Full128<float> f;
     const Ray& ray = unprepared.ray;
-    static_assert(offsetof(Ray, tmin) == offsetof(Ray, origin) + 24 && offsetof(Ray, tmax) == offsetof(Ray, direction) + 24);
+    static_assert(offsetof(Ray, tmin) == offsetof(Ray, origin) + 24 &&
+                  offsetof(Ray, tmax) == offsetof(Ray, direction) + 24);
     const auto origin = hn::LoadU(d, &ray.origin.x); // and tmin, which goes along unused; likewise below
     const auto direction = hn::LoadU(d, &ray.direction.x);
 

@@ -94,8 +94,8 @@ public:
     alignas(16) float entry_offset[4];
     alignas(16) float exit_offset[4];
     std::uint32_t backwards; // a bit for each axis on which the ray enters through the upper plane
-    float first;                 // the s before which no hit lies
-    float last_of_ray;           // last(tmax)
+    float first;             // the s before which no hit lies
+    float last_of_ray;       // last(tmax)
 
     // For triangles, as the members of PreparedRay; z is the major axis.
     int x_axis;

@@ -17,7 +17,8 @@ public:
     explicit SceneFrame(const Box& bounds) : bounds_(bounds) {
         const Vec3 center = choose_center(bounds);
         for (int axis = 0; axis < 3; ++axis) center_[axis] = center[axis];
-        const double largest = max_component(larger(magnitudes(bounds.lower - center), magnitudes(bounds.upper - center)));
+        const double largest =
+            max_component(larger(magnitudes(bounds.lower - center), magnitudes(bounds.upper - center)));
         // A scene smaller than 2^-900 stays small in its frame: the scale itself has to be a number.
         const int exponent = largest > 0x1p-900 ? std::ilogb(largest) + 1 : -900;
         scale_ = std::ldexp(1.0, -exponent);
@@ -28,9 +29,9 @@ public:
     Vec3 to_frame(const Vec3& point) const { return (point - center()) * scale_; }
     Vec3 from_frame(const Vec3& point) const { return point * inverse_scale_ + center(); }
 
-    double scale() const { return scale_; }       // a power of two
+    double scale() const { return scale_; }           // a power of two
     const double* center4() const { return center_; } // x y z, and a zero
-    const Box& bounds() const { return bounds_; } // of the scene, in its own coordinates
+    const Box& bounds() const { return bounds_; }     // of the scene, in its own coordinates
 
     // Zero where that costs no more than three bits of float32's 24: there float32 coordinates are kept without loss. Elsewhere
     // the middle of the scene: float32 resolves 0.5 m at a distance of 5,000 km, so millimetre triangles that are kept in float64

@@ -101,7 +101,8 @@ struct Beyond {
 };
 
 template <class D, class V = hn::VFromD<D>>
-HWY_INLINE Beyond<V> beyond(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, V largest_edge, V sa, V sb, V sc, V s) {
+HWY_INLINE Beyond<V> beyond(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, V largest_edge, V sa, V sb, V sc,
+                            V s) {
     const V da = hn::Sub(sa, s);
     const V db = hn::Sub(sb, s);
     const V dc = hn::Sub(sc, s);

@@ -22,7 +22,8 @@ public:
     explicit LazyRay(const UnpreparedRay& ray) : unprepared_(&ray) {}
 
     HWY_INLINE const PreparedRay& prepared() {
-        if (prepared_ == nullptr) prepared_ = &storage_.emplace(unprepared_->ray, unprepared_->bounds, unprepared_->skip);
+        if (prepared_ == nullptr)
+            prepared_ = &storage_.emplace(unprepared_->ray, unprepared_->bounds, unprepared_->skip);
         return *prepared_;
     }
 

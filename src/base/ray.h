@@ -36,7 +36,7 @@ public:
         std::uint64_t bits;
         std::memcpy(&bits, &largest, sizeof bits);
         exponent_ = static_cast<int>(bits >> 52) - 1023; // of a normal number
-        if (std::abs(exponent_) <= 1000) { // so that 2^exponent and 2^-exponent are normal numbers both
+        if (std::abs(exponent_) <= 1000) {               // so that 2^exponent and 2^-exponent are normal numbers both
             unit_ = power_of_two(exponent_);
             inverse_unit_ = power_of_two(-exponent_);
         } else {

@@ -53,7 +53,8 @@ std::uint64_t read_block(const RayArrays& rays, std::uint64_t first, std::vector
 
 // answer(i, ray, skip) for each ray: near ones one after the other.
 template <class Answer>
-std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Answer& answer) {
+std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel,
+                           const Answer& answer) {
     return for_rays(tracer, rays, parallel, [&](std::uint64_t begin, std::uint64_t end) {
         RayOrder order(tracer.primitives().bounds());
         std::vector<Ray> block;

@@ -76,7 +76,8 @@ void Tracer::all(const Ray& ray, std::vector<Hit>& hits, SkipList skip) const {
     std::sort(found.begin(), found.end());
     keep_crossings(prepared, *primitives_, found);
     hits.reserve(found.size());
-    for (const PrimitiveHit& hit : found) hits.push_back(to_caller(unit_of(ray), hit, primitives_->corners(hit.primitive)));
+    for (const PrimitiveHit& hit : found)
+        hits.push_back(to_caller(unit_of(ray), hit, primitives_->corners(hit.primitive)));
 }
 
 } // namespace raywise

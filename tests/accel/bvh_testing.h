@@ -88,7 +88,13 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     const PreparedRay prepared(ray, scene.bounds());
     const oracle::PlainScan scan(scene.input());
     const PrimitiveHit expected = scan.closest(prepared);
-    const PrimitiveHit found = structure.closest(prepared);
+    const SurfaceHit found = structure.closest(prepared);
+    if (found.is_hit()) {
+        EXPECT_EQ(found.corners, scene.primitives().corners(found.primitive)) << text_of(ray);
+    }
+    const UnpreparedRay unprepared{ray, scene.bounds(), {}};
+    EXPECT_TRUE(same_hit(expected, structure.closest(unprepared))) << "closest, not prepared; " << text_of(ray);
+    EXPECT_EQ(expected.is_hit(), structure.any(unprepared)) << "any, not prepared; " << text_of(ray);
     EXPECT_TRUE(same_hit(expected, found))
         << "closest: expected " << expected.primitive << " at " << expected.t << ", found " << found.primitive << " at "
         << found.t << "; " << text_of(ray);

@@ -1,0 +1,157 @@
+// What is special about the tree that rays are traced in: float32 coordinates in a frame of their own, and a walk for each level of vector
+// instructions. tests/accel/bvh_test.cpp compares its answers over many scenes.
+#include "accel/wide_bvh.h"
+
+#include "accel/bvh.h"
+#include "accel/bvh_testing.h"
+#include "geometry/every_target.h"
+
+#include <algorithm>
+#include <set>
+
+namespace raywise {
+namespace {
+
+using namespace bvh_testing;
+
+// In float32: corners that a tree gives back without loss where the scene is around the origin.
+Triangles rounded(Triangles triangles) {
+    for (Corners& corners : triangles) {
+        for (Vec3& corner : corners) corner = through_float(corner);
+    }
+    return triangles;
+}
+
+// Rays near the scene and far from it, along axes and nearly so, short and long, starting on triangles and beside them.
+Ray varied_ray(const Triangles& triangles, const Box& bounds, int i, Random& random) {
+    Ray ray = any_ray(triangles, bounds, random);
+    const Corners& corners =
+        triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(triangles.size()) - 1))];
+    const Vec3 target = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const double size = max_component(bounds.size());
+    switch (i % 6) {
+        case 0:
+            ray.origin = target + random.direction() * size * std::pow(10.0, random.uniform(0.0, 20.0));
+            ray.direction = target - ray.origin;
+            break;
+        case 1:
+            ray.origin = target;
+            ray.direction = random.direction();
+            ray.tmin = i % 4 == 0 ? 0.0 : 1e-5 * size;
+            break;
+        case 2:
+            ray.origin = target - Vec3(3.0 * size, 0.0, 0.0);
+            ray.direction = Vec3(1.0, std::pow(10.0, random.uniform(-310.0, 0.0)), i % 4 == 0 ? 0.0 : -1e-30);
+            break;
+        case 3:
+            ray.direction *= std::pow(10.0, random.uniform(-200.0, 200.0));
+            ray.tmin = -infinity;
+            break;
+        case 4:
+            ray.origin = target + random.direction() * size * 1e-9;
+            ray.direction = random.direction();
+            break;
+        default:
+            break;
+    }
+    return ray;
+}
+
+void expect_same_on_every_target(const Triangles& triangles, int rays, unsigned seed) {
+    Scene scene(triangles);
+    const Bvh bvh(scene.input());
+    on_every_target([&] {
+        Random random(seed);
+        int hits = 0;
+        for (int i = 0; i < rays && !testing::Test::HasFailure(); ++i) {
+            const Ray ray = varied_ray(triangles, scene.bounds(), i, random);
+            hits += expect_same_with_intervals(scene, bvh, ray) ? 1 : 0;
+        }
+        EXPECT_GT(hits, rays / 20) << "the rays have to test something";
+    });
+}
+
+TEST(WideBvh, Float32CornersAreKeptWithoutLoss) {
+    Scene scene(rounded(soup(500, 0.2, 1)));
+    EXPECT_TRUE(Bvh(scene.input()).tree().exact);
+    Scene doubles(soup(500, 0.2, 1));
+    EXPECT_FALSE(Bvh(doubles.input()).tree().exact);
+    Scene far(rounded(soup(500, 0.2, 1, 1.0, Vec3(1e5, 0.0, 0.0))));
+    EXPECT_TRUE(Bvh(far.input()).tree().exact) << "differences of near float32 numbers are exact";
+}
+
+TEST(WideBvh, TheSameOnEveryTarget) {
+    expect_same_on_every_target(rounded(soup(300, 0.2, 2)), 240, 2);
+    expect_same_on_every_target(soup(300, 0.05, 3), 240, 3);
+}
+
+TEST(WideBvh, TheSameOnEveryTargetAtAllScales) {
+    for (const double scale : {1e-300, 1e-38, 1e-20, 1e20, 1e38})
+        expect_same_on_every_target(soup(100, 0.3, 4, scale), 60, 4);
+}
+
+TEST(WideBvh, TheSameOnEveryTargetFarFromTheOrigin) {
+    expect_same_on_every_target(soup(200, 0.2, 5, 1e-3, Vec3(5e6, -5e6, 5e6)), 120, 5);
+}
+
+TEST(WideBvh, MoreTrianglesInALeafThanInABlock) {
+    const Corners corners = {Vec3(0.0), Vec3(1.0, 0.0, 0.5), Vec3(0.0, 1.0, 0.5)};
+    for (const std::size_t count : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 300u}) {
+        expect_same_on_every_target(Triangles(count, corners), 60, static_cast<unsigned>(count));
+    }
+}
+
+TEST(WideBvh, SkippedTrianglesAreNotHit) {
+    Triangles triangles = rounded(soup(100, 0.6, 6));
+    Scene scene(triangles);
+    const Bvh bvh(scene.input());
+    on_every_target([&] {
+        Random random(6);
+        int checked = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Ray ray = any_ray(triangles, scene.bounds(), random);
+            const SurfaceHit first = bvh.closest(UnpreparedRay{ray, scene.bounds(), {}});
+            if (!first.is_hit()) continue;
+            const SkipList skip{&first.primitive, &first.primitive + 1};
+            const PrimitiveHit expected =
+                oracle::PlainScan(scene.input()).closest(PreparedRay(ray, scene.bounds(), skip));
+            EXPECT_TRUE(same_hit(bvh.closest(UnpreparedRay{ray, scene.bounds(), skip}), expected)) << text_of(ray);
+            EXPECT_EQ(bvh.any(UnpreparedRay{ray, scene.bounds(), skip}), expected.is_hit()) << text_of(ray);
+            ++checked;
+        }
+        EXPECT_GT(checked, 50);
+    });
+}
+
+TEST(WideBvh, EveryTriangleIsInOneLeaf) {
+    for (const std::size_t count : {1u, 6u, 7u, 100u, 40000u}) {
+        Scene scene(soup(count, 0.02, 7), 0);
+        const Bvh bvh(scene.input());
+        const WideBvh& tree = bvh.tree();
+        std::multiset<std::uint32_t> nodes;
+        std::vector<std::uint32_t> found;
+        for (const WideNode& node : tree.nodes) {
+            for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
+                if (node.planes[0][0][i] == absent_plane) continue;
+                const WideReference child = node.child[i];
+                if (!child.is_leaf()) {
+                    nodes.insert(child.index());
+                    continue;
+                }
+                for (std::uint32_t begin = 0; begin < child.triangles(); begin += block_size) {
+                    const std::uint32_t n = std::min(block_size, child.triangles() - begin);
+                    for (std::uint32_t k = 0; k < n; ++k)
+                        found.push_back(BlockTriangle{tree.block(child.index() + begin), n, k}.primitive());
+                }
+            }
+        }
+        EXPECT_EQ(nodes.size() + 1, tree.nodes.size()) << "every node but the root has one parent";
+        EXPECT_EQ(std::set<std::uint32_t>(nodes.begin(), nodes.end()).size(), nodes.size());
+        std::sort(found.begin(), found.end());
+        ASSERT_EQ(found.size(), count);
+        for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(found[i], i);
+    }
+}
+
+} // namespace
+} // namespace raywise
