@@ -1,0 +1,191 @@
+#include "accel/bvh_build_morton.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace raywise {
+namespace {
+
+constexpr int bits_per_axis = 10;
+
+// A pass of the radix sort orders by so many bits: three passes see all of a code.
+constexpr int digit_bits = 10;
+constexpr std::size_t digit_count = std::size_t{1} << digit_bits;
+constexpr int passes = 3 * bits_per_axis / digit_bits;
+
+// Items a thread sorts on its own.
+constexpr std::uint32_t block_size = 65536;
+
+// Equal codes in a row that are worth a finer grid: clustering looks about so far along the curve anyway.
+constexpr std::uint32_t longest_run = 16;
+
+// Each finer grid divides by 2^10 and float32 spans less than 2^280.
+constexpr int most_refinements = 30;
+
+using Key = MortonKey;
+
+// Spreads the lowest ten bits of x so that two zeros follow each.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | (x << 16)) & 0x030000FFu;
+    x = (x | (x << 8)) & 0x0300F00Fu;
+    x = (x | (x << 4)) & 0x030C30C3u;
+    x = (x | (x << 2)) & 0x09249249u;
+    return x;
+}
+
+// A grid of 2^10 cells along each axis over the bounds of centroids.
+class MortonGrid {
+public:
+    explicit MortonGrid(const Bounds& bounds) {
+        for (int axis = 0; axis < 3; ++axis) {
+            // In double: the difference of float32 does not overflow, and the quotient keeps what is very small apart.
+            const double extent = static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis]);
+            lower_[axis] = bounds.lower[axis];
+            scale_[axis] = extent > 0.0 ? (1 << bits_per_axis) / extent : 0.0;
+            divides_ = divides_ || extent > 0.0;
+        }
+    }
+    bool divides() const { return divides_; }
+    std::uint32_t code(const BuildItem& item) const {
+        return spread(cell(item, 0)) | (spread(cell(item, 1)) << 1) | (spread(cell(item, 2)) << 2);
+    }
+
+private:
+    std::uint32_t cell(const BuildItem& item, int axis) const {
+        const double position = (static_cast<double>(item.centroid(axis)) - lower_[axis]) * scale_[axis];
+        return static_cast<std::uint32_t>(std::min(static_cast<int>(position), (1 << bits_per_axis) - 1));
+    }
+
+    double lower_[3];
+    double scale_[3];
+    bool divides_ = false;
+};
+
+std::uint32_t digit(const Key& key, int pass) { return (key.code >> (pass * digit_bits)) & (digit_count - 1); }
+
+// Least significant digit first, stable. Blocks count their digits, and then each knows where its keys go.
+void radix_sort(Key* keys, Key* other, std::uint32_t count, const Parallel& parallel) {
+    const std::size_t blocks = (count + block_size - 1) / block_size;
+    std::vector<std::array<std::uint32_t, digit_count>> places(blocks);
+    const auto for_blocks = [&](const auto& body) {
+        parallel.for_each(blocks, [&](std::uint64_t block) {
+            const auto begin = static_cast<std::uint32_t>(block * block_size);
+            body(begin, std::min(count - begin, block_size) + begin, places[block]);
+        });
+    };
+    for (int pass = 0; pass < passes; ++pass) {
+        for_blocks([&](std::uint32_t begin, std::uint32_t end, auto& counts) {
+            counts.fill(0);
+            for (std::uint32_t i = begin; i < end; ++i) ++counts[digit(keys[i], pass)];
+        });
+        std::uint32_t place = 0;
+        for (std::size_t d = 0; d < digit_count; ++d) {
+            for (auto& block : places) {
+                const std::uint32_t here = block[d];
+                block[d] = place;
+                place += here;
+            }
+        }
+        for_blocks([&](std::uint32_t begin, std::uint32_t end, auto& next) {
+            for (std::uint32_t i = begin; i < end; ++i) other[next[digit(keys[i], pass)]++] = keys[i];
+        });
+        std::swap(keys, other);
+    }
+    static_assert(passes % 2 == 1, "the sorted keys are in the second array");
+}
+
+class MortonSorter {
+public:
+    MortonSorter(const BuildItem* items, std::uint32_t count, const Parallel& parallel)
+        : items_(items),
+          parallel_(parallel),
+          keys_(make_uninitialised<Key>(count)),
+          other_(make_uninitialised<Key>(count)) {}
+
+    std::unique_ptr<Key[]> sort(std::uint32_t count, const Bounds& centroids) {
+        parallel_.for_blocks(count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
+            for (std::uint64_t i = begin; i < end; ++i) keys_[i].index = static_cast<std::uint32_t>(i);
+        });
+        std::vector<Run> large{{0, count, 0}};
+        std::vector<Run> small;
+        while (!large.empty()) {
+            const Run run = large.back();
+            large.pop_back();
+            sort_large(run, run.refinements == 0 ? centroids : bounds_of(run));
+            for_equal(run, [&](const Run& part) { (part.count > block_size ? large : small).push_back(part); });
+        }
+        other_.reset();
+        parallel_.for_blocks(small.size(), 1, [&](std::uint64_t begin, std::uint64_t end) {
+            for (std::uint64_t i = begin; i < end; ++i) sort_small(small[i]);
+        });
+        return std::move(keys_);
+    }
+
+private:
+    // Keys that a grid could not tell apart.
+    struct Run {
+        std::uint32_t begin;
+        std::uint32_t count;
+        int refinements;
+    };
+
+    Bounds bounds_of(const Run& run) const {
+        Bounds bounds = Bounds::none();
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            bounds.extend(Bounds::of_centroid(items_[keys_[run.begin + i].index]));
+        }
+        return bounds;
+    }
+
+    void sort_large(const Run& run, const Bounds& bounds) {
+        const MortonGrid grid(bounds);
+        parallel_.for_blocks(run.count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
+            for (std::uint64_t i = run.begin + begin; i < run.begin + end; ++i) {
+                const std::uint32_t index = keys_[i].index;
+                other_[i] = {grid.code(items_[index]), index};
+            }
+        });
+        radix_sort(other_.get() + run.begin, keys_.get() + run.begin, run.count, parallel_);
+    }
+
+    void sort_small(const Run& run) {
+        const MortonGrid grid(bounds_of(run));
+        if (!grid.divides()) return;
+        Key* const keys = keys_.get() + run.begin;
+        for (std::uint32_t i = 0; i < run.count; ++i) keys[i].code = grid.code(items_[keys[i].index]);
+        std::sort(keys, keys + run.count, [](const Key& a, const Key& b) {
+            return a.code < b.code || (a.code == b.code && a.index < b.index);
+        });
+        for_equal(run, [&](const Run& part) { sort_small(part); });
+    }
+
+    // Calls body for each run of equal codes that is worth a finer grid. A grid that divides puts the lowest and the
+    // highest centroid of an axis into different cells, so the runs become shorter.
+    template <class Body>
+    void for_equal(const Run& run, const Body& body) const {
+        if (run.refinements == most_refinements) return;
+        const Key* const keys = keys_.get() + run.begin;
+        for (std::uint32_t begin = 0, end = 0; begin < run.count; begin = end) {
+            while (end < run.count && keys[end].code == keys[begin].code) ++end;
+            if (end - begin > longest_run && end - begin < run.count) {
+                body({run.begin + begin, end - begin, run.refinements + 1});
+            }
+        }
+    }
+
+    const BuildItem* const items_;
+    const Parallel& parallel_;
+    std::unique_ptr<Key[]> keys_;
+    std::unique_ptr<Key[]> other_;
+};
+
+} // namespace
+
+std::unique_ptr<MortonKey[]> morton_order(const BuildItem* items, std::uint32_t count, const Bounds& centroids,
+                                          const Parallel& parallel) {
+    return MortonSorter(items, count, parallel).sort(count, centroids);
+}
+
+} // namespace raywise

@@ -1,0 +1,27 @@
+// What every builder of a hierarchy begins with: a box around each primitive that can be hit.
+#pragma once
+
+#include "accel/accel.h"
+#include "accel/bvh_build_bounds.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace raywise {
+
+// Where a tree's coordinates begin; see BvhTree::center.
+Vec3 choose_bvh_center(const Box& bounds);
+
+struct BuildReferences {
+    std::unique_ptr<BuildItem[]> items; // id: the primitive; in the order of primitives
+    std::uint32_t count = 0;
+    Bounds bounds = Bounds::none();
+    Bounds centroids = Bounds::none(); // bounds of the boxes' centroids
+};
+
+// report: called with numbers of primitives that are done.
+BuildReferences gather_references(const BuildInput& input, const Vec3& center,
+                                  const std::function<void(std::uint64_t)>& report);
+
+} // namespace raywise
