@@ -46,7 +46,8 @@ struct BvhTree {
 
 struct BvhBuildOptions {
     std::uint32_t max_leaf_size = 16;
-    // Primitives that a leaf tests at once: it costs BuildCosts::primitive_test_ns for each block it begins.
+    // Primitives that a leaf tests at once: it costs BuildCosts::primitive_test_ns for each block it begins. A
+    // power of two.
     std::uint32_t block_size = 1;
     std::optional<BuildCosts> costs; // instead of the input's
 };

@@ -14,11 +14,13 @@ namespace raywise {
 
 inline constexpr int no_axis = -1;
 
-// How to split a node. `weight` is the sum over both children of half area times blocks of primitives.
+// How to split a node. `weight` is the sum over both children of half area, in units of the square of the node's size,
+// times blocks of primitives.
 struct BinSplit {
-    double weight = std::numeric_limits<double>::infinity();
+    float weight = std::numeric_limits<float>::infinity();
     int axis = no_axis;
     int bin = 0; // the first on the right
+    std::uint32_t left_primitives = 0;
     Bounds left = Bounds::none();
     Bounds right = Bounds::none();
 };
@@ -35,9 +37,9 @@ public:
             scale_[axis] = divides ? static_cast<float>(count) / extent : 0.0f;
         }
     }
-    int bin(const BuildItem& item, int axis) const {
-        const int bin = static_cast<int>((item.centroid(axis) - lower_[axis]) * scale_[axis]);
-        return bin < count_ ? bin : count_ - 1;
+    // Whether the item's bin on the axis is below `bin`, which is at most count() - 1.
+    bool is_below(const BuildItem& item, int axis, int bin) const {
+        return (item.centroid(axis) - lower_[axis]) * scale_[axis] < static_cast<float>(bin);
     }
     // On all three axes. The fourth lane is of no use, and may be anything before.
     IntLanes bins(const Bounds& bounds) const {
@@ -57,13 +59,15 @@ class Bins {
 public:
     static constexpr int most = 32;
     // The more items, the more it pays to look closely.
-    static constexpr int count_for(std::uint32_t items) { return items < 32 ? 8 : items < 512 ? 16 : most; }
+    static constexpr int count_for(std::uint32_t items) {
+        return static_cast<int>(std::min<std::uint32_t>(most, 4 + items / 16));
+    }
 
     explicit Bins(int count) : count_(count) {
         for (int axis = 0; axis < 3; ++axis) {
             std::fill_n(bounds_[axis], count, Bounds::none());
-            std::fill_n(primitives_[axis], count, 0u);
         }
+        std::fill_n(primitives_, count, CountLanes{});
     }
 
     void add(const BuildItem& item, const Binning& binning) {
@@ -71,49 +75,94 @@ public:
         const IntLanes bins = binning.bins(bounds);
         for (int axis = 0; axis < 3; ++axis) {
             bounds_[axis][bins[axis]].extend(bounds);
-            primitives_[axis][bins[axis]] += item.count;
+            primitives_[bins[axis]][axis] += item.count;
         }
+    }
+    // Neighbours often fall into the same bin, and then each would wait for what the one before it has stored: where there
+    // are many, every other item has bins of its own.
+    void add(const BuildItem* items, std::uint32_t count, const Binning& binning) {
+        constexpr std::uint32_t worth_two = 256;
+        if (count < worth_two) {
+            for (std::uint32_t i = 0; i < count; ++i) add(items[i], binning);
+            return;
+        }
+        Bins odd(count_);
+        for (std::uint32_t i = 0; i + 1 < count; i += 2) {
+            add(items[i], binning);
+            odd.add(items[i + 1], binning);
+        }
+        if (count % 2 == 1) add(items[count - 1], binning);
+        add(odd);
     }
     void add(const Bins& other) {
         for (int axis = 0; axis < 3; ++axis) {
             for (int bin = 0; bin < count_; ++bin) {
                 bounds_[axis][bin].extend(other.bounds_[axis][bin]);
-                primitives_[axis][bin] += other.primitives_[axis][bin];
             }
         }
+        for (int bin = 0; bin < count_; ++bin) primitives_[bin] += other.primitives_[bin];
     }
 
-    BinSplit best_split(const TreeCosts& costs) const {
+    // bounds: of all items. They make one the unit of length, so that areas neither overflow nor underflow where it
+    // matters.
+    BinSplit best_split(const Bounds& bounds, const TreeCosts& costs) const {
+        const Lanes unit = fill_lanes(bounds.reciprocal_size());
+        // All three axes at once, a lane for each. From the right: what is in the bins from each bin on, weighed.
+        Lanes right_weights[most];
+        Bounds sums[3] = {Bounds::none(), Bounds::none(), Bounds::none()};
+        CountLanes primitives{};
+        for (int bin = count_ - 1; bin > 0; --bin) {
+            for (int axis = 0; axis < 3; ++axis) sums[axis].extend(bounds_[axis][bin]);
+            primitives += primitives_[bin];
+            right_weights[bin] = weigh(sums, primitives, unit, costs);
+        }
+        for (Bounds& sum : sums) sum = Bounds::none();
+        primitives = CountLanes{};
+        Lanes best_weights = fill_lanes(std::numeric_limits<float>::infinity());
+        IntLanes best_bins{};
+        for (int bin = 1; bin < count_; ++bin) {
+            for (int axis = 0; axis < 3; ++axis) sums[axis].extend(bounds_[axis][bin - 1]);
+            primitives += primitives_[bin - 1];
+            const Lanes weights = weigh(sums, primitives, unit, costs) + right_weights[bin];
+            // A side without items weighs infinity times zero, a NaN, and that is never better.
+            const IntLanes better = weights < best_weights;
+            best_weights = min_lanes(weights, best_weights);
+            best_bins = (better & bin) | (~better & best_bins);
+        }
         BinSplit best;
         for (int axis = 0; axis < 3; ++axis) {
-            // From the right: bounds and numbers of the bins from each bin on.
-            Bounds right_bounds[most];
-            double right_weight[most];
-            Bounds sum = Bounds::none();
-            std::uint32_t primitives = 0;
-            for (int bin = count_ - 1; bin > 0; --bin) {
-                sum.extend(bounds_[axis][bin]);
-                primitives += primitives_[axis][bin];
-                right_bounds[bin] = sum;
-                right_weight[bin] = primitives == 0 ? -1.0 : sum.half_area() * costs.blocks(primitives);
+            if (best_weights[axis] < best.weight) {
+                best.weight = best_weights[axis];
+                best.axis = axis;
+                best.bin = best_bins[axis];
             }
-            sum = Bounds::none();
-            primitives = 0;
-            for (int bin = 1; bin < count_; ++bin) {
-                sum.extend(bounds_[axis][bin - 1]);
-                primitives += primitives_[axis][bin - 1];
-                if (primitives == 0 || right_weight[bin] < 0.0) continue;
-                const double weight = sum.half_area() * costs.blocks(primitives) + right_weight[bin];
-                if (weight < best.weight) best = {weight, axis, bin, sum, right_bounds[bin]};
-            }
+        }
+        if (best.axis == no_axis) return best;
+        for (int bin = 0; bin < count_; ++bin) {
+            (bin < best.bin ? best.left : best.right).extend(bounds_[best.axis][bin]);
+            if (bin < best.bin) best.left_primitives += primitives_[bin][best.axis];
         }
         return best;
     }
 
 private:
+    // Half area times blocks of primitives, of what is left of a bin on each axis, or right.
+    static Lanes weigh(const Bounds* sums, const CountLanes& primitives, const Lanes& unit, const TreeCosts& costs) {
+        const Lanes a = sums[0].upper * unit - sums[0].lower * unit;
+        const Lanes b = sums[1].upper * unit - sums[1].lower * unit;
+        const Lanes c = sums[2].upper * unit - sums[2].lower * unit;
+        // From the extents of each axis' box to those of all three boxes along x, along y and along z.
+        const Lanes ab_xy = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+        const Lanes x = __builtin_shufflevector(ab_xy, c, 0, 1, 4, 4);
+        const Lanes y = __builtin_shufflevector(ab_xy, c, 2, 3, 5, 5);
+        const Lanes z = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 2, 6), c, 0, 1, 6, 6);
+        const CountLanes blocks = (primitives + (costs.block_size - 1)) >> costs.log2_block_size;
+        return (x * (y + z) + y * z) * __builtin_convertvector(blocks, Lanes);
+    }
+
     int count_;
     Bounds bounds_[3][most];
-    std::uint32_t primitives_[3][most];
+    CountLanes primitives_[most];
 };
 
 } // namespace raywise

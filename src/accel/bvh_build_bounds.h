@@ -1,6 +1,7 @@
 // Boxes while a hierarchy is built: in float32, four lanes wide.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -36,6 +37,7 @@ std::unique_ptr<T[]> make_uninitialised(std::size_t count) {
 // hence the two intrinsics.
 using Lanes = float __attribute__((vector_size(16)));
 using IntLanes = std::int32_t __attribute__((vector_size(16)));
+using CountLanes = std::uint32_t __attribute__((vector_size(16)));
 
 inline Lanes fill_lanes(float value) { return Lanes{value, value, value, value}; }
 #if defined(__SSE__)
@@ -73,6 +75,19 @@ struct Bounds {
         upper = max_lanes(other.upper, upper);
     }
 
+    // What to multiply with for the largest extent to become about one: a power of two, and a normal number.
+    float reciprocal_size() const {
+        const Lanes extents = upper - lower;
+        const float extent = std::max(extents[0], std::max(extents[1], extents[2])); // may overflow
+        std::uint32_t bits;
+        std::memcpy(&bits, &extent, sizeof bits);
+        const std::uint32_t exponent = std::min(bits >> 23, 253u);
+        bits = (254u - exponent) << 23;
+        float reciprocal;
+        std::memcpy(&reciprocal, &bits, sizeof reciprocal);
+        return reciprocal;
+    }
+
     // In double, where the products of float32 neither over- nor underflow. Not for empty bounds.
     double half_area() const {
         const double x = static_cast<double>(upper[0]) - static_cast<double>(lower[0]);
@@ -81,5 +96,12 @@ struct Bounds {
         return x * y + y * z + z * x;
     }
 };
+
+// a where the condition holds, else b; without a jump.
+inline Lanes select(bool condition, Lanes a, Lanes b) {
+    const std::int32_t all = condition ? -1 : 0;
+    const IntLanes mask{all, all, all, all};
+    return reinterpret_cast<Lanes>((reinterpret_cast<IntLanes>(a) & mask) | (reinterpret_cast<IntLanes>(b) & ~mask));
+}
 
 } // namespace raywise

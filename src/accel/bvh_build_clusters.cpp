@@ -3,7 +3,6 @@
 #include "accel/bvh_build_nearest.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -22,16 +21,6 @@ BvhNode make_node(const float* lower, const float* upper, std::uint32_t first, s
     node.first = first;
     node.count = count;
     return node;
-}
-
-// A power of two that brings the largest extent close to one, so that areas neither overflow nor, unless they are of
-// no weight in the scene, underflow.
-float scale_of(const Bounds& bounds) {
-    double extent = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        extent = std::max(extent, static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis]));
-    }
-    return extent > 0.0 ? static_cast<float>(std::ldexp(1.0, std::clamp(-std::ilogb(extent), -126, 127))) : 1.0f;
 }
 
 } // namespace
@@ -149,7 +138,7 @@ void Clusters::build(const Bounds& bounds, const Parallel& parallel,
     const std::uint64_t ranges = (count_ + range_size - 1) / range_size;
     nodes_ = make_uninitialised<Node>(count_);
     std::vector<std::vector<BuildItem>> tops(ranges);
-    const float scale = scale_of(bounds);
+    const float scale = bounds.reciprocal_size();
     parallel.for_blocks(ranges, 1, [&](std::uint64_t begin, std::uint64_t end) {
         Range range(*this, scale);
         for (std::uint64_t r = begin; r < end; ++r) {
@@ -163,6 +152,36 @@ void Clusters::build(const Bounds& bounds, const Parallel& parallel,
     for (auto& part : tops) {
         tops_.insert(tops_.end(), part.begin(), part.end());
         part = {};
+    }
+}
+
+void Clusters::open(const BuildItem& cluster, std::uint32_t size, std::vector<BuildItem>& parts) const {
+    if (cluster.count <= size) {
+        parts.push_back(cluster);
+    } else {
+        open(place_of(cluster), size, parts);
+    }
+}
+
+void Clusters::open(const Place& place, std::uint32_t size, std::vector<BuildItem>& parts) const {
+    for (const std::uint16_t number : node(place).child) {
+        const Place child{place.range, number};
+        BuildItem part;
+        if (number < range_size) {
+            part = items_[keys_[place.range + number].index];
+            part.id = place.range + number;
+        } else {
+            const Node& n = node(child);
+            if (n.count > size) {
+                open(child, size, parts);
+                continue;
+            }
+            std::copy_n(n.lower, 3, part.lower);
+            std::copy_n(n.upper, 3, part.upper);
+            part.id = place.range + number - range_size;
+            part.count = n.count;
+        }
+        parts.push_back(part);
     }
 }
 

@@ -37,6 +37,9 @@ public:
     // One item for each cluster, along the curve; id names the cluster.
     std::vector<BuildItem>& items() { return tops_; }
 
+    // Appends the smaller clusters that a cluster was merged from: the largest ones of at most `size` primitives.
+    void open(const BuildItem& cluster, std::uint32_t size, std::vector<BuildItem>& parts) const;
+
     // Appends the pairs of a cluster's tree to `pairs`, writes its primitives to references[first] and on, and returns
     // its root.
     BvhNode emit(const BuildItem& cluster, std::vector<BvhPair>& pairs, std::uint32_t* references,
@@ -64,6 +67,7 @@ private:
         return {range, cluster.id - range + (cluster.count > 1 ? range_size : 0)};
     }
     const Node& node(const Place& place) const { return nodes_[place.range + place.number - range_size]; }
+    void open(const Place& place, std::uint32_t size, std::vector<BuildItem>& parts) const;
     BvhNode emit(const Place& place, std::vector<BvhPair>& pairs, std::uint32_t* references,
                  std::uint32_t& first) const;
     std::uint32_t* emit_primitives(const Place& place, std::uint32_t* references) const;

@@ -38,28 +38,30 @@ std::uint32_t spread(std::uint32_t x) {
 // A grid of 2^10 cells along each axis over the bounds of centroids.
 class MortonGrid {
 public:
-    explicit MortonGrid(const Bounds& bounds) {
+    explicit MortonGrid(const Bounds& bounds) : unit_(fill_lanes(bounds.reciprocal_size())) {
+        // In units of the largest extent, so that no difference over- or underflows.
+        const Lanes lower = bounds.lower * unit_;
+        const Lanes extent = bounds.upper * unit_ - lower;
         for (int axis = 0; axis < 3; ++axis) {
-            // In double: the difference of float32 does not overflow, and the quotient keeps what is very small apart.
-            const double extent = static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis]);
-            lower_[axis] = bounds.lower[axis];
-            scale_[axis] = extent > 0.0 ? (1 << bits_per_axis) / extent : 0.0;
-            divides_ = divides_ || extent > 0.0;
+            const bool divides = extent[axis] > 0.0f;
+            lower_[axis] = divides ? lower[axis] : 0.0f;
+            scale_[axis] = divides ? std::min((1 << bits_per_axis) / extent[axis], 0x1p100f) : 0.0f;
+            divides_ = divides_ || divides;
         }
     }
     bool divides() const { return divides_; }
     std::uint32_t code(const BuildItem& item) const {
-        return spread(cell(item, 0)) | (spread(cell(item, 1)) << 1) | (spread(cell(item, 2)) << 2);
+        const Lanes position = (Bounds::of(item).centroid() * unit_ - lower_) * scale_;
+        const IntLanes cell = __builtin_convertvector(
+            min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
+        return spread(static_cast<std::uint32_t>(cell[0])) | (spread(static_cast<std::uint32_t>(cell[1])) << 1) |
+               (spread(static_cast<std::uint32_t>(cell[2])) << 2);
     }
 
 private:
-    std::uint32_t cell(const BuildItem& item, int axis) const {
-        const double position = (static_cast<double>(item.centroid(axis)) - lower_[axis]) * scale_[axis];
-        return static_cast<std::uint32_t>(std::min(static_cast<int>(position), (1 << bits_per_axis) - 1));
-    }
-
-    double lower_[3];
-    double scale_[3];
+    Lanes unit_;
+    Lanes lower_{};
+    Lanes scale_{};
     bool divides_ = false;
 };
 

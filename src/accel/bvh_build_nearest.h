@@ -9,7 +9,7 @@ namespace raywise {
 
 // How far along the row is looked, in both directions. Of 8 and 16 the larger was no better; see
 // docs/decisions/0011-bvh-builders.md.
-inline constexpr std::ptrdiff_t nearest_radius = 8;
+inline constexpr std::ptrdiff_t nearest_radius = 4;
 
 // Boxes side by side, each coordinate in an array of its own, and room for what the search finds.
 class NearestBoxes {

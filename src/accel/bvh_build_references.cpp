@@ -1,6 +1,7 @@
 #include "accel/bvh_build_references.h"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <vector>
 
@@ -9,16 +10,25 @@ namespace {
 
 constexpr std::uint64_t chunk_size = 16384; // primitives between two reports
 
-BuildItem make_item(const Primitives& primitives, std::uint32_t primitive, const Vec3& center) {
-    const Box box = primitives.box(primitive);
-    const BoxF rounded = round_outwards({box.lower - center, box.upper - center});
+BuildItem make_item(const Corners& c, const Vec3& center) {
+    const BoxF box = round_outwards(
+        {glm::min(c[0], glm::min(c[1], c[2])) - center, glm::max(c[0], glm::max(c[1], c[2])) - center});
     BuildItem item;
     for (int axis = 0; axis < 3; ++axis) {
-        item.lower[axis] = rounded.lower[axis];
-        item.upper[axis] = rounded.upper[axis];
+        item.lower[axis] = box.lower[axis];
+        item.upper[axis] = box.upper[axis];
     }
-    item.id = primitive;
-    item.count = 1;
+    return item;
+}
+
+// Boxes of float32 corners are exact where they are not moved.
+BuildItem make_item(const CornersF& c) {
+    const Lanes a{c[0].x, c[0].y, c[0].z, 0.0f};
+    const Lanes b{c[1].x, c[1].y, c[1].z, 0.0f};
+    const Lanes d{c[2].x, c[2].y, c[2].z, 0.0f};
+    const Bounds bounds{min_lanes(a, min_lanes(b, d)), max_lanes(a, max_lanes(b, d))};
+    BuildItem item;
+    std::memcpy(static_cast<void*>(&item), &bounds, sizeof bounds);
     return item;
 }
 
@@ -44,6 +54,7 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     BuildReferences references;
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
     references.items = make_uninitialised<BuildItem>(references.count);
+    const bool exact = center == Vec3(0.0);
     std::mutex mutex;
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;
     input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
@@ -51,12 +62,23 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
         const std::uint64_t end = std::min<std::uint64_t>(references.count, begin + chunk_size);
         Bounds bounds = Bounds::none();
         Bounds centroids = Bounds::none();
+        PrimitiveId id{0, 0};
+        std::uint32_t next = 0; // the first primitive after the mesh of `id`
         for (std::uint64_t i = begin; i < end; ++i) {
-            const BuildItem item =
-                make_item(primitives, hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i], center);
+            const std::uint32_t primitive = hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i];
+            if (primitive >= next) {
+                id = primitives.locate(primitive);
+                next = primitives.number({id.geometry, 0}) + primitives.meshes()[id.geometry]->triangle_count();
+            }
+            const TriangleMesh& mesh = *primitives.meshes()[id.geometry];
+            const std::uint32_t triangle = mesh.triangle_count() - (next - primitive);
+            BuildItem item = exact && mesh.is_float32() ? make_item(mesh.corners_float32(triangle))
+                                                        : make_item(mesh.corners(triangle), center);
+            item.id = primitive;
+            item.count = 1;
             references.items[i] = item;
-            bounds.extend(Bounds::of(references.items[i]));
-            centroids.extend(Bounds::of_centroid(references.items[i]));
+            bounds.extend(Bounds::of(item));
+            centroids.extend(Bounds::of_centroid(item));
         }
         {
             const std::lock_guard lock(mutex);

@@ -1,6 +1,6 @@
 #include "accel/bvh_build_top_down.h"
 
-#include "accel/bvh_build_bins.h"
+#include "accel/bvh_build_parts.h"
 
 #include <algorithm>
 #include <mutex>
@@ -10,30 +10,17 @@
 namespace raywise {
 namespace {
 
-// Up to so many items a thread builds the whole subtree; above, all threads share the work on one node. It depends on
-// nothing but the scene, and neither does the tree therefore.
-constexpr std::uint32_t job_size = 1024;
+// Up to so many clusters, or that part of all, a thread builds the whole subtree; above, all threads share the work on
+// one node.
+constexpr std::uint32_t least_job_size = 512;
+constexpr std::uint32_t jobs_wanted = 64;
+
+// Parts of so few clusters are split by what the clusters were merged from, pairs of primitives at most.
+constexpr std::uint32_t open_below = 16;
+constexpr std::uint32_t opened_size = 2;
 
 // The clusters' own trees have to fit below.
 constexpr int max_depth = bvh_max_depth - Clusters::most_rounds;
-
-// A node to be built: items [begin, end), whose primitives are references from `first` on.
-struct Part {
-    std::uint32_t begin;
-    std::uint32_t end;
-    std::uint32_t first;
-    std::uint32_t primitives;
-    int depth;
-    Bounds bounds;
-
-    std::uint32_t count() const { return end - begin; }
-};
-
-int ceil_log2(std::uint32_t n) {
-    int log = 0;
-    while (log < 32 && (std::uint64_t{1} << log) < n) ++log;
-    return log;
-}
 
 BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
     BvhNode node;
@@ -46,12 +33,57 @@ BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count
     return node;
 }
 
-int longest_axis(const Bounds& bounds) {
-    const Lanes extents = bounds.upper - bounds.lower;
-    const float extent[3] = {extents[0], extents[1], extents[2]};
-    const int xy = extent[0] >= extent[1] ? 0 : 1;
-    return extent[xy] >= extent[2] ? xy : 2;
-}
+// The part of the tree that a thread builds alone. Pairs are numbered from 0 until all parts are put together.
+class SubtreeBuilder {
+public:
+    SubtreeBuilder(const Clusters& clusters, const TreeCosts& costs, std::uint32_t* references)
+        : clusters_(clusters), costs_(costs), references_(references) {}
+
+    BvhNode build(const Part& part, BuildItem* items) {
+        scratch_.resize(part.count());
+        pairs_.reserve(part.primitives / std::max(2u, costs_.block_size));
+        return build_node(part, items, false);
+    }
+    std::vector<BvhPair>& pairs() { return pairs_; }
+
+private:
+    BvhNode build_node(const Part& part, BuildItem* items, bool opened) {
+        if (!opened && part.count() <= open_below) return build_opened(part, items);
+        if (part.count() == 1) return clusters_.emit(items[part.begin], pairs_, references_, part.first);
+        Halves halves;
+        if (!PartSplitter(items, scratch_.data(), costs_, max_depth).split(part, halves)) {
+            std::uint32_t* next = references_ + part.first;
+            for (std::uint32_t i = part.begin; i < part.end; ++i) next = clusters_.emit_primitives(items[i], next);
+            return make_node(part.bounds, part.first, part.primitives);
+        }
+        const auto pair = static_cast<std::uint32_t>(pairs_.size());
+        pairs_.emplace_back();
+        const BvhNode left = build_node(halves.first, items, opened);
+        const BvhNode right = build_node(halves.second, items, opened);
+        pairs_[pair].child[0] = left;
+        pairs_[pair].child[1] = right;
+        return make_node(part.bounds, pair, 0);
+    }
+
+    BvhNode build_opened(const Part& closed, const BuildItem* items) {
+        opened_.clear();
+        for (std::uint32_t i = closed.begin; i < closed.end; ++i) clusters_.open(items[i], opened_size, opened_);
+        Part part = closed;
+        part.begin = 0;
+        part.end = static_cast<std::uint32_t>(opened_.size());
+        part.centroids = Bounds::none();
+        for (const BuildItem& item : opened_) part.centroids.extend(Bounds::of_centroid(item));
+        if (scratch_.size() < opened_.size()) scratch_.resize(opened_.size());
+        return build_node(part, opened_.data(), true);
+    }
+
+    const Clusters& clusters_;
+    const TreeCosts& costs_;
+    std::uint32_t* const references_;
+    std::vector<BuildItem> scratch_;
+    std::vector<BuildItem> opened_;
+    std::vector<BvhPair> pairs_;
+};
 
 class TopDownBuilder {
 public:
@@ -62,7 +94,8 @@ public:
           costs_(costs),
           parallel_(parallel),
           report_(report),
-          tree_(tree) {}
+          tree_(tree),
+          job_size_(std::max(least_job_size, static_cast<std::uint32_t>(items_.size()) / jobs_wanted)) {}
 
     void build(const Bounds& bounds) {
         split_top(bounds);
@@ -71,7 +104,6 @@ public:
     }
 
 private:
-    // The part of the tree that a thread builds alone. Its pairs are numbered from 0 until it is assembled.
     struct Job {
         Part part;
         std::uint32_t pair; // where its root goes: a child of a top pair
@@ -89,18 +121,22 @@ private:
         };
         const auto count = static_cast<std::uint32_t>(items_.size());
         const auto primitives = static_cast<std::uint32_t>(tree_.references.size());
-        std::vector<Open> open{{{0, count, 0, primitives, 0, bounds}, 0, no_axis}};
+        Part root{0, count, 0, primitives, 0, bounds, Bounds::none()};
+        for (const BuildItem& item : items_) root.centroids.extend(Bounds::of_centroid(item));
+        std::vector<BuildItem> scratch(count <= job_size_ ? 0 : count);
+        std::vector<Open> open{{root, 0, no_axis}};
         while (!open.empty()) {
             const Open node = open.back();
             open.pop_back();
-            if (node.part.count() <= job_size) {
+            if (node.part.count() <= job_size_) {
                 jobs_.push_back({node.part, node.pair, node.child, {}});
                 continue;
             }
             const auto pair = static_cast<std::uint32_t>(top_.size());
             top_.emplace_back();
             place(node.pair, node.child, make_node(node.part.bounds, pair, 0));
-            const auto [left, right] = split_shared(node.part);
+            const auto [left, right] =
+                split_shared(node.part, PartSplitter(items_.data(), scratch.data(), costs_, max_depth));
             open.push_back({right, pair, 1});
             open.push_back({left, pair, 0});
         }
@@ -110,33 +146,21 @@ private:
         (child == no_axis ? tree_.root : top_[pair].child[child]) = node;
     }
 
-    // Folds all items of a part. Pieces are folded on their own and then merged: minima, maxima and counts do not depend
-    // on how the part was cut.
-    template <class Result, class Add, class Merge>
-    Result reduce(const Part& part, const Result& initial, const Add& add, const Merge& merge) {
-        std::mutex mutex;
-        Result result = initial;
-        parallel_.for_blocks(part.count(), 4096, [&](std::uint64_t begin, std::uint64_t end) {
-            Result piece = initial;
-            for (std::uint64_t i = begin; i < end; ++i) add(piece, items_[part.begin + i]);
-            const std::lock_guard lock(mutex);
-            merge(result, piece);
-        });
-        return result;
-    }
-
-    std::pair<Part, Part> split_shared(const Part& part) {
+    Halves split_shared(const Part& part, const PartSplitter& splitter) {
         report_(0); // large scenes take a while; whoever wants to stop is heard
-        const Bounds centroids = reduce(
-            part, Bounds::none(), [](Bounds& b, const BuildItem& item) { b.extend(Bounds::of_centroid(item)); },
-            [](Bounds& b, const Bounds& other) { b.extend(other); });
-        if (must_halve(part)) return halve(part, centroids);
-        const Binning binning(centroids, Bins::count_for(part.count()));
-        const Bins bins = reduce(
-            part, Bins(binning.count()), [&](Bins& b, const BuildItem& item) { b.add(item, binning); },
-            [](Bins& b, const Bins& other) { b.add(other); });
-        const BinSplit split = bins.best_split(costs_);
-        return split.axis == no_axis ? halve(part, centroids) : divide(part, split, binning);
+        if (splitter.must_halve(part)) return splitter.halve(part);
+        const Binning binning(part.centroids, Bins::count_for(part.count()));
+        Bins bins(binning.count());
+        std::mutex mutex;
+        // Minima, maxima and counts do not depend on how the part was cut.
+        parallel_.for_blocks(part.count(), 4096, [&](std::uint64_t begin, std::uint64_t end) {
+            Bins piece(binning.count());
+            piece.add(items_.data() + part.begin + begin, static_cast<std::uint32_t>(end - begin), binning);
+            const std::lock_guard lock(mutex);
+            bins.add(piece);
+        });
+        const BinSplit split = bins.best_split(part.bounds, costs_);
+        return split.axis == no_axis ? splitter.halve(part) : splitter.divide(part, split, binning);
     }
 
     // ---- Subtrees.
@@ -152,97 +176,11 @@ private:
         });
         parallel_.for_each(jobs_.size(), [&](std::uint64_t i) {
             Job& job = jobs_[order[i]];
-            job.pairs.reserve(job.part.primitives / std::max(2u, costs_.block_size));
-            place(job.pair, job.child, build_node(job.part, job));
+            SubtreeBuilder builder(clusters_, costs_, tree_.references.data());
+            place(job.pair, job.child, builder.build(job.part, items_.data()));
+            job.pairs = std::move(builder.pairs());
             report_(job.part.primitives);
         });
-    }
-
-    BvhNode build_node(const Part& part, Job& job) {
-        if (part.count() == 1) {
-            return clusters_.emit(items_[part.begin], job.pairs, tree_.references.data(), part.first);
-        }
-        std::pair<Part, Part> halves;
-        if (!split(part, halves)) {
-            std::uint32_t* references = tree_.references.data() + part.first;
-            for (std::uint32_t i = part.begin; i < part.end; ++i) {
-                references = clusters_.emit_primitives(items_[i], references);
-            }
-            return make_node(part.bounds, part.first, part.primitives);
-        }
-        const auto pair = static_cast<std::uint32_t>(job.pairs.size());
-        job.pairs.emplace_back();
-        const BvhNode left = build_node(halves.first, job);
-        const BvhNode right = build_node(halves.second, job);
-        job.pairs[pair].child[0] = left;
-        job.pairs[pair].child[1] = right;
-        return make_node(part.bounds, pair, 0);
-    }
-
-    // Splits a part unless it is better off as a leaf.
-    bool split(const Part& part, std::pair<Part, Part>& halves) {
-        const bool may_be_leaf = part.primitives <= costs_.max_leaf_size;
-        if (may_be_leaf && costs_.blocks(part.primitives) == 1) return false;
-        Bounds centroids = Bounds::none();
-        for (std::uint32_t i = part.begin; i < part.end; ++i) centroids.extend(Bounds::of_centroid(items_[i]));
-        if (must_halve(part)) {
-            if (may_be_leaf) return false;
-            halves = halve(part, centroids);
-            return true;
-        }
-        const Binning binning(centroids, Bins::count_for(part.count()));
-        Bins bins(binning.count());
-        for (std::uint32_t i = part.begin; i < part.end; ++i) bins.add(items_[i], binning);
-        const BinSplit split = bins.best_split(costs_);
-        if (may_be_leaf && !worth_splitting(part, split)) return false;
-        halves = split.axis == no_axis ? halve(part, centroids) : divide(part, split, binning);
-        return true;
-    }
-
-    bool worth_splitting(const Part& part, const BinSplit& split) const {
-        if (split.axis == no_axis) return false;
-        const double area = part.bounds.half_area();
-        return costs_.node * area + costs_.block * split.weight < costs_.leaf(part.primitives) * area;
-    }
-
-    // ---- Splits.
-
-    // A split by the heuristic may leave nearly all items on one side. It is allowed as long as halving from there on
-    // would still end in time: depth + ceil_log2(count) <= max_depth holds for the root (count < 2^32) and for the
-    // children of every node, because halving lowers the logarithm by one where depth + 1 would exceed the bound. So a
-    // node at max_depth has one item.
-    static bool must_halve(const Part& part) { return part.depth + ceil_log2(part.count()) >= max_depth; }
-
-    std::pair<Part, Part> divide(const Part& part, const BinSplit& split, const Binning& binning) {
-        const auto begin = items_.begin() + part.begin;
-        const auto middle = std::partition(begin, items_.begin() + part.end, [&](const BuildItem& item) {
-            return binning.bin(item, split.axis) < split.bin;
-        });
-        return cut(part, static_cast<std::uint32_t>(middle - items_.begin()), split.left, split.right);
-    }
-
-    // In the middle of the sorted centroids; where they all coincide, of the numbers.
-    std::pair<Part, Part> halve(const Part& part, const Bounds& centroids) {
-        const int axis = longest_axis(centroids);
-        const std::uint32_t middle = part.begin + part.count() / 2;
-        std::nth_element(items_.begin() + part.begin, items_.begin() + middle, items_.begin() + part.end,
-                         [axis](const BuildItem& a, const BuildItem& b) {
-                             const float ca = a.centroid(axis);
-                             const float cb = b.centroid(axis);
-                             return ca < cb || (ca == cb && (a.id < b.id || (a.id == b.id && a.count < b.count)));
-                         });
-        Bounds left = Bounds::none();
-        Bounds right = Bounds::none();
-        for (std::uint32_t i = part.begin; i < middle; ++i) left.extend(Bounds::of(items_[i]));
-        for (std::uint32_t i = middle; i < part.end; ++i) right.extend(Bounds::of(items_[i]));
-        return cut(part, middle, left, right);
-    }
-
-    std::pair<Part, Part> cut(const Part& part, std::uint32_t middle, const Bounds& left, const Bounds& right) const {
-        std::uint32_t primitives = 0;
-        for (std::uint32_t i = part.begin; i < middle; ++i) primitives += items_[i].count;
-        return {{part.begin, middle, part.first, primitives, part.depth + 1, left},
-                {middle, part.end, part.first + primitives, part.primitives - primitives, part.depth + 1, right}};
     }
 
     // ---- Top and subtrees become one array: the top, then the subtrees from left to right, each from its root down.
@@ -278,6 +216,7 @@ private:
     const Parallel& parallel_;
     const std::function<void(std::uint64_t)>& report_;
     BvhTree& tree_;
+    const std::uint32_t job_size_;
     std::vector<BvhPair> top_;
     std::vector<Job> jobs_;
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -26,9 +28,61 @@ Vec3 scaled_normal(const Corners& c) {
     return exact_normal(c[0], c[1], c[2]);
 }
 
+// Whether float32 is enough to see that a triangle has an area: most have by far. The differences are right to 2^-24 of
+// themselves, so the cross product is to less than 2^-20 of size^2, as long as all are normal numbers.
+bool surely_has_area(const CornersF& c) {
+    const Vec3f e = c[1] - c[0];
+    const Vec3f f = c[2] - c[0];
+    const Vec3f largest = glm::max(glm::abs(e), glm::abs(f));
+    const float size = std::max(largest.x, std::max(largest.y, largest.z));
+    const Vec3f n = glm::abs(glm::cross(e, f));
+    return size > 0x1p-40f && size < 0x1p40f && std::max(n.x, std::max(n.y, n.z)) > 0x1p-18f * size * size;
+}
+
+// What a run of triangles of one mesh adds up to.
+struct Survey {
+    Box bounds;
+    std::uint64_t degenerate = 0;
+    std::uint64_t invalid = 0;
+    std::vector<std::uint32_t> unhittable; // of the mesh's triangles
+};
+
+Survey survey(const TriangleMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Survey result;
+    Vec3f lower(infinity);
+    Vec3f upper(-infinity);
+    const bool is_float32 = mesh.is_float32();
+    for (std::uint32_t i = begin; i < end; ++i) {
+        if (!mesh.is_valid(i)) {
+            ++result.invalid;
+            result.unhittable.push_back(i);
+            continue;
+        }
+        if (is_float32) {
+            const CornersF c = mesh.corners_float32(i);
+            if (surely_has_area(c)) {
+                lower = glm::min(lower, glm::min(c[0], glm::min(c[1], c[2])));
+                upper = glm::max(upper, glm::max(c[0], glm::max(c[1], c[2])));
+                continue;
+            }
+        }
+        const Corners c = mesh.corners(i);
+        if (scaled_normal(c) == Vec3(0.0)) {
+            ++result.degenerate;
+            result.unhittable.push_back(i);
+            continue;
+        }
+        for (const Vec3& p : c) result.bounds.extend(p);
+    }
+    result.bounds.extend(Box{Vec3(lower), Vec3(upper)});
+    return result;
+}
+
 } // namespace
 
-Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) : meshes_(std::move(meshes)) {
+Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel)
+    : meshes_(std::move(meshes)) {
     std::uint64_t total = 0;
     first_.reserve(meshes_.size());
     for (const auto& mesh : meshes_) {
@@ -40,26 +94,21 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes) 
     }
     count_ = static_cast<std::uint32_t>(total);
 
-    std::vector<bool> unhittable(count_, false);
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const TriangleMesh& mesh = *meshes_[m];
-        for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
-            if (!mesh.is_valid(i)) {
-                ++invalid_count_;
-                unhittable[first_[m] + i] = true;
-                continue;
-            }
-            const Corners c = mesh.corners(i);
-            if (scaled_normal(c) == Vec3(0.0)) {
-                ++degenerate_count_;
-                unhittable[first_[m] + i] = true;
-                continue;
-            }
-            for (const Vec3& p : c) bounds_.extend(p);
-        }
+        std::mutex mutex;
+        parallel.for_blocks(mesh.triangle_count(), 16384, [&](std::uint64_t begin, std::uint64_t end) {
+            const Survey part = survey(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+            const std::lock_guard lock(mutex);
+            bounds_.extend(part.bounds);
+            degenerate_count_ += part.degenerate;
+            invalid_count_ += part.invalid;
+            if (part.unhittable.empty()) return;
+            unhittable_.resize(count_, false);
+            for (const std::uint32_t i : part.unhittable) unhittable_[first_[m] + i] = true;
+        });
     }
     hittable_count_ = count_ - degenerate_count_ - invalid_count_;
-    if (hittable_count_ != count_) unhittable_ = std::move(unhittable);
 }
 
 Vec3 Primitives::normal(std::uint32_t primitive) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box.h"
+#include "base/parallel.h"
 #include "base/ray.h"
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_test.h"
@@ -39,7 +40,8 @@ class Primitives {
 public:
     // The meshes are kept. Counts degenerate triangles and finds the bounds of those that can be hit. Throws
     // Error(ERROR_TOO_MANY) when all meshes together exceed the ids.
-    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes);
+    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes,
+                        const Parallel& parallel = Parallel(1));
 
     std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
