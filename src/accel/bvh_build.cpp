@@ -26,8 +26,10 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
     const TreeCosts costs(input, options);
     tree.center = choose_bvh_center(input.primitives.bounds());
     const BuildReferences references = gather_references(input, tree.center, report);
-    const auto keys = morton_order(references.items.get(), references.count, references.centroids, input.parallel);
-    Clusters clusters(references.items.get(), keys.get(), references.count, costs);
+    Clusters clusters(
+        references.items.get(),
+        morton_order(references.items.get(), references.count, references.centroids, input.parallel),
+        references.count);
     clusters.build(references.bounds, input.parallel, report);
     tree.references.resize(references.count);
     build_top_down(clusters, references.bounds, costs, input.parallel, report, tree);

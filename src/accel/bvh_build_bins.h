@@ -37,14 +37,11 @@ public:
             scale_[axis] = divides ? static_cast<float>(count) / extent : 0.0f;
         }
     }
-    // Whether the item's bin on the axis is below `bin`, which is at most count() - 1.
-    bool is_below(const BuildItem& item, int axis, int bin) const {
-        return (item.centroid(axis) - lower_[axis]) * scale_[axis] < static_cast<float>(bin);
-    }
-    // On all three axes. The fourth lane is of no use, and may be anything before.
-    IntLanes bins(const Bounds& bounds) const {
-        const Lanes position = (bounds.centroid() - lower_) * scale_;
-        return __builtin_convertvector(min_lanes(position, fill_lanes(static_cast<float>(count_ - 1))), IntLanes);
+    // Where the centroid lies between the bins on each axis. The fourth lane is of no use.
+    RW_INLINE Lanes position(const Lanes& centroid) const { return (centroid - lower_) * scale_; }
+    RW_INLINE IntLanes bins(const Bounds& bounds) const {
+        return __builtin_convertvector(
+            min_lanes(position(bounds.centroid()), fill_lanes(static_cast<float>(count_ - 1))), IntLanes);
     }
     int count() const { return count_; }
 
@@ -70,29 +67,13 @@ public:
         std::fill_n(primitives_, count, CountLanes{});
     }
 
-    void add(const BuildItem& item, const Binning& binning) {
+    RW_INLINE void add(const BuildItem& item, const Binning& binning) {
         const Bounds bounds = Bounds::of(item);
         const IntLanes bins = binning.bins(bounds);
         for (int axis = 0; axis < 3; ++axis) {
             bounds_[axis][bins[axis]].extend(bounds);
             primitives_[bins[axis]][axis] += item.count;
         }
-    }
-    // Neighbours often fall into the same bin, and then each would wait for what the one before it has stored: where there
-    // are many, every other item has bins of its own.
-    void add(const BuildItem* items, std::uint32_t count, const Binning& binning) {
-        constexpr std::uint32_t worth_two = 256;
-        if (count < worth_two) {
-            for (std::uint32_t i = 0; i < count; ++i) add(items[i], binning);
-            return;
-        }
-        Bins odd(count_);
-        for (std::uint32_t i = 0; i + 1 < count; i += 2) {
-            add(items[i], binning);
-            odd.add(items[i + 1], binning);
-        }
-        if (count % 2 == 1) add(items[count - 1], binning);
-        add(odd);
     }
     void add(const Bins& other) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -105,7 +86,7 @@ public:
 
     // bounds: of all items. They make one the unit of length, so that areas neither overflow nor underflow where it
     // matters.
-    BinSplit best_split(const Bounds& bounds, const TreeCosts& costs) const {
+    RW_INLINE BinSplit best_split(const Bounds& bounds, const TreeCosts& costs) const {
         const Lanes unit = fill_lanes(bounds.reciprocal_size());
         // All three axes at once, a lane for each. From the right: what is in the bins from each bin on, weighed.
         Lanes right_weights[most];
@@ -147,7 +128,7 @@ public:
 
 private:
     // Half area times blocks of primitives, of what is left of a bin on each axis, or right.
-    static Lanes weigh(const Bounds* sums, const CountLanes& primitives, const Lanes& unit, const TreeCosts& costs) {
+    RW_INLINE static Lanes weigh(const Bounds* sums, const CountLanes& primitives, const Lanes& unit, const TreeCosts& costs) {
         const Lanes a = sums[0].upper * unit - sums[0].lower * unit;
         const Lanes b = sums[1].upper * unit - sums[1].lower * unit;
         const Lanes c = sums[2].upper * unit - sums[2].lower * unit;

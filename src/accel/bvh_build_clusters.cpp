@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 namespace raywise {
 namespace {
@@ -12,33 +11,19 @@ namespace {
 // A round that leaves more than so much of the clusters is the last: the rest is far apart, or of very different size.
 constexpr double least_shrink = 0.95;
 
-BvhNode make_node(const float* lower, const float* upper, std::uint32_t first, std::uint32_t count) {
-    BvhNode node;
-    for (int axis = 0; axis < 3; ++axis) {
-        node.planes[0][axis] = lower[axis];
-        node.planes[1][axis] = upper[axis];
-    }
-    node.first = first;
-    node.count = count;
-    return node;
-}
-
 } // namespace
 
 // The clusters of one range after another, with memory that is used again.
 class Clusters::Range {
 public:
     Range(const Clusters& owner, float scale)
-        : owner_(owner),
-          scale_(scale),
-          boxes_(range_size),
-          clusters_(make_uninitialised<BuildItem>(range_size)),
-          costs_(make_uninitialised<float>(range_size)) {}
+        : owner_(owner), scale_(fill_lanes(scale)), boxes_(range_size), clusters_(make_build_array<BuildItem>(range_size)) {}
 
     // Returns the clusters.
     std::vector<BuildItem> build(std::uint32_t begin) {
         load(begin);
         for (int round = 0; round < most_rounds; ++round) {
+            copy_boxes();
             boxes_.search(count_);
             const std::uint32_t before = count_;
             merge();
@@ -58,24 +43,39 @@ private:
         count_ = std::min(owner_.count_ - begin, range_size);
         node_count_ = 0;
         for (std::uint32_t i = 0; i < count_; ++i) {
-            clusters_[i] = owner_.items_[owner_.keys_[begin + i].index];
+            MortonKey& key = owner_.keys_[begin + i];
+            clusters_[i] = owner_.items_[key.index];
+            key.code = clusters_[i].id;
             clusters_[i].id = i;
-            set_box(i);
-            costs_[i] = static_cast<float>(owner_.costs_.leaf(1)) * half_area(i);
         }
     }
 
-    void set_box(std::uint32_t i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            boxes_.plane(axis)[i] = -clusters_[i].lower[axis] * scale_;
-            boxes_.plane(3 + axis)[i] = clusters_[i].upper[axis] * scale_;
+    // Four boxes at a time, from lower and upper corners to planes. Up to three that are not there go where the search
+    // wants nothing to be.
+    void copy_boxes() {
+        for (std::uint32_t i = 0; i < count_; i += 4) {
+            Lanes lower[4];
+            Lanes upper[4];
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const Bounds box = Bounds::of(clusters_[std::min(i + k, count_ - 1)]);
+                lower[k] = -(box.lower * scale_);
+                upper[k] = box.upper * scale_;
+            }
+            copy_planes(lower, 0, i);
+            copy_planes(upper, 3, i);
         }
     }
-    float half_area(std::uint32_t i) {
-        const float x = boxes_.plane(0)[i] + boxes_.plane(3)[i];
-        const float y = boxes_.plane(1)[i] + boxes_.plane(4)[i];
-        const float z = boxes_.plane(2)[i] + boxes_.plane(5)[i];
-        return x * (y + z) + y * z;
+    void copy_planes(const Lanes* corners, int first_plane, std::uint32_t i) {
+        const Lanes xy01 = __builtin_shufflevector(corners[0], corners[1], 0, 4, 1, 5);
+        const Lanes xy23 = __builtin_shufflevector(corners[2], corners[3], 0, 4, 1, 5);
+        const Lanes z01 = __builtin_shufflevector(corners[0], corners[1], 2, 6, 3, 7);
+        const Lanes z23 = __builtin_shufflevector(corners[2], corners[3], 2, 6, 3, 7);
+        const Lanes x = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
+        const Lanes y = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
+        const Lanes z = __builtin_shufflevector(z01, z23, 0, 1, 4, 5);
+        std::memcpy(boxes_.plane(first_plane) + i, &x, sizeof x);
+        std::memcpy(boxes_.plane(first_plane + 1) + i, &y, sizeof y);
+        std::memcpy(boxes_.plane(first_plane + 2) + i, &z, sizeof z);
     }
 
     // Two that chose each other become one, where the first of them was. The others move up.
@@ -87,47 +87,31 @@ private:
             const bool mutual = offset != 0 && boxes_.offset(other) == -offset;
             if (mutual && offset < 0) continue;
             if (mutual) {
-                merge(i, other, kept);
+                clusters_[kept] = merged(clusters_[i], clusters_[other]);
             } else {
                 clusters_[kept] = clusters_[i];
-                costs_[kept] = costs_[i];
             }
-            set_box(kept);
             ++kept;
         }
         count_ = kept;
     }
 
-    void merge(std::uint32_t a, std::uint32_t b, std::uint32_t to) {
-        Bounds bounds = Bounds::of(clusters_[a]);
-        bounds.extend(Bounds::of(clusters_[b]));
-        BuildItem merged;
-        std::memcpy(static_cast<void*>(&merged), &bounds, sizeof bounds);
-        merged.id = range_size + node_count_;
-        merged.count = clusters_[a].count + clusters_[b].count;
+    BuildItem merged(const BuildItem& a, const BuildItem& b) {
+        Bounds bounds = Bounds::of(a);
+        bounds.extend(Bounds::of(b));
+        BuildItem result = bounds.item(range_size + node_count_, a.count + b.count);
         Node& node = owner_.nodes_[begin_ + node_count_++];
-        std::copy_n(merged.lower, 3, node.lower);
-        std::copy_n(merged.upper, 3, node.upper);
-        node.child[0] = static_cast<std::uint16_t>(clusters_[a].id);
-        node.child[1] = static_cast<std::uint16_t>(clusters_[b].id);
-        node.count = static_cast<std::uint16_t>(merged.count);
-
-        const float cost_of_children = costs_[a] + costs_[b];
-        clusters_[to] = merged;
-        set_box(to);
-        const TreeCosts& costs = owner_.costs_;
-        const float area = half_area(to);
-        const float split = static_cast<float>(costs.node) * area + cost_of_children;
-        const float leaf = static_cast<float>(costs.leaf(merged.count)) * area;
-        node.is_leaf = merged.count <= costs.max_leaf_size && leaf <= split;
-        costs_[to] = node.is_leaf ? leaf : split;
+        static_assert(sizeof node == sizeof result);
+        std::memcpy(&node, &result, sizeof node);
+        node.child[0] = static_cast<std::uint16_t>(a.id);
+        node.child[1] = static_cast<std::uint16_t>(b.id);
+        return result;
     }
 
     const Clusters& owner_;
-    const float scale_;
+    const Lanes scale_;
     NearestBoxes boxes_;
-    std::unique_ptr<BuildItem[]> clusters_;
-    std::unique_ptr<float[]> costs_; // of each cluster's tree, times half areas
+    BuildArray<BuildItem> clusters_;
     std::uint32_t begin_ = 0;
     std::uint32_t count_ = 0;
     std::uint32_t node_count_ = 0;
@@ -136,7 +120,7 @@ private:
 void Clusters::build(const Bounds& bounds, const Parallel& parallel,
                      const std::function<void(std::uint64_t)>& report) {
     const std::uint64_t ranges = (count_ + range_size - 1) / range_size;
-    nodes_ = make_uninitialised<Node>(count_);
+    nodes_ = make_build_array<Node>(count_);
     std::vector<std::vector<BuildItem>> tops(ranges);
     const float scale = bounds.reciprocal_size();
     parallel.for_blocks(ranges, 1, [&](std::uint64_t begin, std::uint64_t end) {
@@ -155,77 +139,49 @@ void Clusters::build(const Bounds& bounds, const Parallel& parallel,
     }
 }
 
-void Clusters::open(const BuildItem& cluster, std::uint32_t size, std::vector<BuildItem>& parts) const {
-    if (cluster.count <= size) {
+void Clusters::open(const BuildItem& cluster, std::vector<BuildItem>& parts) const {
+    if (cluster.count <= 2) {
         parts.push_back(cluster);
     } else {
-        open(place_of(cluster), size, parts);
+        open(range_of(cluster), node(cluster), parts);
     }
 }
 
-void Clusters::open(const Place& place, std::uint32_t size, std::vector<BuildItem>& parts) const {
-    for (const std::uint16_t number : node(place).child) {
-        const Place child{place.range, number};
+void Clusters::open(std::uint32_t range, const Node& opened, std::vector<BuildItem>& parts) const {
+    for (const std::uint16_t number : opened.child) {
         BuildItem part;
         if (number < range_size) {
-            part = items_[keys_[place.range + number].index];
-            part.id = place.range + number;
+            part = items_[keys_[range + number].index];
+            part.id = range + number;
         } else {
-            const Node& n = node(child);
-            if (n.count > size) {
-                open(child, size, parts);
+            const std::uint32_t id = range + number - range_size;
+            const Node& child = nodes_[id];
+            if (child.count > 2) {
+                open(range, child, parts);
                 continue;
             }
-            std::copy_n(n.lower, 3, part.lower);
-            std::copy_n(n.upper, 3, part.upper);
-            part.id = place.range + number - range_size;
-            part.count = n.count;
+            std::memcpy(static_cast<void*>(&part), &child, sizeof part);
+            part.id = id;
         }
         parts.push_back(part);
     }
 }
 
-BvhNode Clusters::emit(const BuildItem& cluster, std::vector<BvhPair>& pairs, std::uint32_t* references,
-                       std::uint32_t first) const {
-    return emit(place_of(cluster), pairs, references, first);
+std::array<const BuildItem*, 2> Clusters::references(const BuildItem& cluster) const {
+    if (cluster.count == 1) return {&items_[keys_[cluster.id].index], nullptr};
+    const std::uint32_t range = range_of(cluster);
+    const Node& n = node(cluster);
+    return {&items_[keys_[range + n.child[0]].index], &items_[keys_[range + n.child[1]].index]};
 }
 
-BvhNode Clusters::emit(const Place& place, std::vector<BvhPair>& pairs, std::uint32_t* references,
-                       std::uint32_t& first) const {
-    if (place.number < range_size) {
-        const BuildItem& item = items_[keys_[place.range + place.number].index];
-        references[first] = item.id;
-        return make_node(item.lower, item.upper, first++, 1);
+std::uint32_t* Clusters::emit_primitives(const BuildItem& cluster, std::uint32_t* primitives) const {
+    if (cluster.count == 1) {
+        *primitives = keys_[cluster.id].code;
+        return primitives + 1;
     }
-    const Node& n = node(place);
-    if (n.is_leaf) {
-        const std::uint32_t begin = first;
-        emit_primitives(place, references + first);
-        first += n.count;
-        return make_node(n.lower, n.upper, begin, n.count);
-    }
-    const auto pair = static_cast<std::uint32_t>(pairs.size());
-    pairs.emplace_back();
-    for (int child = 0; child < 2; ++child) {
-        const BvhNode built = emit(Place{place.range, n.child[child]}, pairs, references, first);
-        pairs[pair].child[child] = built;
-    }
-    return make_node(n.lower, n.upper, pair, 0);
-}
-
-std::uint32_t* Clusters::emit_primitives(const BuildItem& cluster, std::uint32_t* references) const {
-    return emit_primitives(place_of(cluster), references);
-}
-
-std::uint32_t* Clusters::emit_primitives(const Place& place, std::uint32_t* references) const {
-    if (place.number < range_size) {
-        *references = items_[keys_[place.range + place.number].index].id;
-        return references + 1;
-    }
-    for (const std::uint16_t child : node(place).child) {
-        references = emit_primitives(Place{place.range, child}, references);
-    }
-    return references;
+    const std::uint32_t range = range_of(cluster);
+    for (const std::uint16_t number : node(cluster).child) *primitives++ = keys_[range + number].code;
+    return primitives;
 }
 
 } // namespace raywise

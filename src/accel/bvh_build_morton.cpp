@@ -103,10 +103,10 @@ public:
     MortonSorter(const BuildItem* items, std::uint32_t count, const Parallel& parallel)
         : items_(items),
           parallel_(parallel),
-          keys_(make_uninitialised<Key>(count)),
-          other_(make_uninitialised<Key>(count)) {}
+          keys_(make_build_array<Key>(count)),
+          other_(make_build_array<Key>(count)) {}
 
-    std::unique_ptr<Key[]> sort(std::uint32_t count, const Bounds& centroids) {
+    BuildArray<Key> sort(std::uint32_t count, const Bounds& centroids) {
         parallel_.for_blocks(count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = begin; i < end; ++i) keys_[i].index = static_cast<std::uint32_t>(i);
         });
@@ -179,13 +179,13 @@ private:
 
     const BuildItem* const items_;
     const Parallel& parallel_;
-    std::unique_ptr<Key[]> keys_;
-    std::unique_ptr<Key[]> other_;
+    BuildArray<Key> keys_;
+    BuildArray<Key> other_;
 };
 
 } // namespace
 
-std::unique_ptr<MortonKey[]> morton_order(const BuildItem* items, std::uint32_t count, const Bounds& centroids,
+BuildArray<MortonKey> morton_order(const BuildItem* items, std::uint32_t count, const Bounds& centroids,
                                           const Parallel& parallel) {
     return MortonSorter(items, count, parallel).sort(count, centroids);
 }

@@ -1,5 +1,7 @@
 #include "accel/bvh_build_parts.h"
 
+#include "accel/bvh_build_kernels.h"
+
 #include <algorithm>
 
 namespace raywise {
@@ -40,8 +42,8 @@ bool PartSplitter::split(const Part& part, Halves& halves) const {
     }
     const Binning binning(part.centroids, Bins::count_for(part.count()));
     Bins bins(binning.count());
-    bins.add(items_ + part.begin, part.count(), binning);
-    const BinSplit split = bins.best_split(part.bounds, costs_);
+    fill_bins(items_ + part.begin, part.count(), binning, bins);
+    const BinSplit split = best_split(bins, part.bounds, costs_);
     if (may_be_leaf && !worth_splitting(part, split)) return false;
     halves = split.axis == no_axis ? halve(part) : divide(part, split, binning);
     return true;
@@ -56,41 +58,11 @@ bool PartSplitter::worth_splitting(const Part& part, const BinSplit& split) cons
     return costs_.node * area + costs_.block * static_cast<double>(split.weight) < costs_.leaf(part.primitives) * area;
 }
 
-// Of the first item on one side; neither is empty.
-Lanes PartSplitter::first_centroid(const Part& part, const BinSplit& split, const Binning& binning, bool left) const {
-    std::uint32_t i = part.begin;
-    while (binning.is_below(items_[i], split.axis, split.bin) != left) ++i;
-    return Bounds::of(items_[i]).centroid();
-}
-
 Halves PartSplitter::divide(const Part& part, const BinSplit& split, const Binning& binning) const {
     Halves halves{child_of(part, split.left), child_of(part, split.right)};
-    Bounds left_centroids = Bounds::none();
-    Bounds right_centroids = Bounds::none();
-    // The centroid met last on each side, met again where the next one is on the other.
-    Lanes last_left = first_centroid(part, split, binning, true);
-    Lanes last_right = first_centroid(part, split, binning, false);
-    // Keeps the order on both sides, without a jump that depends on the item: every item is written to both places, and
-    // only one of the two moves on.
-    BuildItem* left = items_ + part.begin;
-    BuildItem* right = scratch_;
-    for (std::uint32_t i = part.begin; i < part.end; ++i) {
-        const BuildItem item = items_[i];
-        const bool below = binning.is_below(item, split.axis, split.bin);
-        *left = item;
-        *right = item;
-        left += below ? 1 : 0;
-        right += below ? 0 : 1;
-        const Lanes centroid = Bounds::of(item).centroid();
-        last_left = select(below, centroid, last_left);
-        last_right = select(below, last_right, centroid);
-        left_centroids.extend({last_left, last_left});
-        right_centroids.extend({last_right, last_right});
-    }
-    std::copy(scratch_, right, left);
-    halves.first.end = halves.second.begin = static_cast<std::uint32_t>(left - items_);
-    halves.first.centroids = left_centroids;
-    halves.second.centroids = right_centroids;
+    const std::uint32_t left = partition_items(items_ + part.begin, part.count(), binning, split, scratch_,
+                                               halves.first.centroids, halves.second.centroids);
+    halves.first.end = halves.second.begin = part.begin + left;
     number(part, split.left_primitives, halves);
     return halves;
 }

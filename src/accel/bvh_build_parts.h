@@ -45,7 +45,6 @@ public:
     Halves divide(const Part& part, const BinSplit& split, const Binning& binning) const;
 
 private:
-    Lanes first_centroid(const Part& part, const BinSplit& split, const Binning& binning, bool left) const;
     bool worth_splitting(const Part& part, const BinSplit& split) const;
 
     BuildItem* const items_;

@@ -1,7 +1,6 @@
 #include "accel/bvh_build_references.h"
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 #include <vector>
 
@@ -27,9 +26,7 @@ BuildItem make_item(const CornersF& c) {
     const Lanes b{c[1].x, c[1].y, c[1].z, 0.0f};
     const Lanes d{c[2].x, c[2].y, c[2].z, 0.0f};
     const Bounds bounds{min_lanes(a, min_lanes(b, d)), max_lanes(a, max_lanes(b, d))};
-    BuildItem item;
-    std::memcpy(static_cast<void*>(&item), &bounds, sizeof bounds);
-    return item;
+    return bounds.item(0, 1);
 }
 
 } // namespace
@@ -53,7 +50,7 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     }
     BuildReferences references;
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
-    references.items = make_uninitialised<BuildItem>(references.count);
+    references.items = make_build_array<BuildItem>(references.count);
     const bool exact = center == Vec3(0.0);
     std::mutex mutex;
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;

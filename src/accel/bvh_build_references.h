@@ -3,10 +3,10 @@
 
 #include "accel/accel.h"
 #include "accel/bvh_build_bounds.h"
+#include "accel/bvh_build_memory.h"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 
 namespace raywise {
 
@@ -14,7 +14,7 @@ namespace raywise {
 Vec3 choose_bvh_center(const Box& bounds);
 
 struct BuildReferences {
-    std::unique_ptr<BuildItem[]> items; // id: the primitive; in the order of primitives
+    BuildArray<BuildItem> items; // id: the primitive; in the order of primitives
     std::uint32_t count = 0;
     Bounds bounds = Bounds::none();
     Bounds centroids = Bounds::none(); // bounds of the boxes' centroids

@@ -1,5 +1,6 @@
 #include "accel/bvh_build_top_down.h"
 
+#include "accel/bvh_build_kernels.h"
 #include "accel/bvh_build_parts.h"
 
 #include <algorithm>
@@ -17,10 +18,10 @@ constexpr std::uint32_t jobs_wanted = 64;
 
 // Parts of so few clusters are split by what the clusters were merged from, pairs of primitives at most.
 constexpr std::uint32_t open_below = 16;
-constexpr std::uint32_t opened_size = 2;
 
-// The clusters' own trees have to fit below.
-constexpr int max_depth = bvh_max_depth - Clusters::most_rounds;
+// One level for the two primitives of a pair. A part that is opened has up to 2^opened_log times as many items.
+constexpr int opened_log = Clusters::most_rounds;
+constexpr int max_depth = bvh_max_depth - 1;
 
 BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
     BvhNode node;
@@ -49,12 +50,11 @@ public:
 private:
     BvhNode build_node(const Part& part, BuildItem* items, bool opened) {
         if (!opened && part.count() <= open_below) return build_opened(part, items);
-        if (part.count() == 1) return clusters_.emit(items[part.begin], pairs_, references_, part.first);
+        if (part.count() == 1) return build_pair(part, items[part.begin]);
         Halves halves;
-        if (!PartSplitter(items, scratch_.data(), costs_, max_depth).split(part, halves)) {
-            std::uint32_t* next = references_ + part.first;
-            for (std::uint32_t i = part.begin; i < part.end; ++i) next = clusters_.emit_primitives(items[i], next);
-            return make_node(part.bounds, part.first, part.primitives);
+        if (!PartSplitter(items, scratch_.data(), costs_, opened ? max_depth : max_depth - opened_log)
+                 .split(part, halves)) {
+            return make_leaf(part, items);
         }
         const auto pair = static_cast<std::uint32_t>(pairs_.size());
         pairs_.emplace_back();
@@ -65,9 +65,35 @@ private:
         return make_node(part.bounds, pair, 0);
     }
 
+    BvhNode make_leaf(const Part& part, const BuildItem* items) {
+        std::uint32_t* next = references_ + part.first;
+        for (std::uint32_t i = part.begin; i < part.end; ++i) next = clusters_.emit_primitives(items[i], next);
+        return make_node(part.bounds, part.first, part.primitives);
+    }
+
+    // One or two primitives.
+    BvhNode build_pair(const Part& part, const BuildItem& item) {
+        if (item.count == 1) return make_leaf(part, &item - part.begin);
+        const std::array<const BuildItem*, 2> references = clusters_.references(item);
+        const Bounds children[2] = {Bounds::of(*references[0]), Bounds::of(*references[1])};
+        const double split =
+            costs_.node * part.bounds.half_area() +
+            costs_.leaf(1) * (children[0].half_area() + children[1].half_area());
+        if (costs_.max_leaf_size >= 2 && costs_.leaf(2) * part.bounds.half_area() <= split) {
+            return make_leaf(part, &item - part.begin);
+        }
+        clusters_.emit_primitives(item, references_ + part.first);
+        const auto pair = static_cast<std::uint32_t>(pairs_.size());
+        pairs_.emplace_back();
+        for (std::uint32_t child = 0; child < 2; ++child) {
+            pairs_[pair].child[child] = make_node(children[child], part.first + child, 1);
+        }
+        return make_node(part.bounds, pair, 0);
+    }
+
     BvhNode build_opened(const Part& closed, const BuildItem* items) {
         opened_.clear();
-        for (std::uint32_t i = closed.begin; i < closed.end; ++i) clusters_.open(items[i], opened_size, opened_);
+        for (std::uint32_t i = closed.begin; i < closed.end; ++i) clusters_.open(items[i], opened_);
         Part part = closed;
         part.begin = 0;
         part.end = static_cast<std::uint32_t>(opened_.size());
@@ -136,7 +162,7 @@ private:
             top_.emplace_back();
             place(node.pair, node.child, make_node(node.part.bounds, pair, 0));
             const auto [left, right] =
-                split_shared(node.part, PartSplitter(items_.data(), scratch.data(), costs_, max_depth));
+                split_shared(node.part, PartSplitter(items_.data(), scratch.data(), costs_, max_depth - opened_log));
             open.push_back({right, pair, 1});
             open.push_back({left, pair, 0});
         }
@@ -155,11 +181,11 @@ private:
         // Minima, maxima and counts do not depend on how the part was cut.
         parallel_.for_blocks(part.count(), 4096, [&](std::uint64_t begin, std::uint64_t end) {
             Bins piece(binning.count());
-            piece.add(items_.data() + part.begin + begin, static_cast<std::uint32_t>(end - begin), binning);
+            fill_bins(items_.data() + part.begin + begin, static_cast<std::uint32_t>(end - begin), binning, piece);
             const std::lock_guard lock(mutex);
             bins.add(piece);
         });
-        const BinSplit split = bins.best_split(part.bounds, costs_);
+        const BinSplit split = best_split(bins, part.bounds, costs_);
         return split.axis == no_axis ? splitter.halve(part) : splitter.divide(part, split, binning);
     }
 

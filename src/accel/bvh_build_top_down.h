@@ -1,7 +1,9 @@
 // The upper levels of a hierarchy, built from above over clusters of primitives.
 #pragma once
 
+#include "accel/bvh_build.h"
 #include "accel/bvh_build_clusters.h"
+#include "accel/bvh_build_costs.h"
 
 #include <cstdint>
 #include <functional>

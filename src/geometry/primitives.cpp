@@ -1,6 +1,7 @@
 #include "geometry/primitives.h"
 
 #include "base/error.h"
+#include "base/lanes.h"
 #include "geometry/exact.h"
 
 #include <algorithm>
@@ -28,15 +29,23 @@ Vec3 scaled_normal(const Corners& c) {
     return exact_normal(c[0], c[1], c[2]);
 }
 
+float largest(Lanes x) { return std::max(x[0], std::max(x[1], x[2])); }
+
+Lanes lanes_of(const Vec3f& p) { return Lanes{p.x, p.y, p.z, 0.0f}; }
+Vec3 vec3_of(Lanes x) { return Vec3(Vec3f(x[0], x[1], x[2])); }
+
 // Whether float32 is enough to see that a triangle has an area: most have by far. The differences are right to 2^-24 of
 // themselves, so the cross product is to less than 2^-20 of size^2, as long as all are normal numbers.
-bool surely_has_area(const CornersF& c) {
-    const Vec3f e = c[1] - c[0];
-    const Vec3f f = c[2] - c[0];
-    const Vec3f largest = glm::max(glm::abs(e), glm::abs(f));
-    const float size = std::max(largest.x, std::max(largest.y, largest.z));
-    const Vec3f n = glm::abs(glm::cross(e, f));
-    return size > 0x1p-40f && size < 0x1p40f && std::max(n.x, std::max(n.y, n.z)) > 0x1p-18f * size * size;
+bool surely_has_area(Lanes a, Lanes b, Lanes c) {
+    const Lanes e = b - a;
+    const Lanes f = c - a;
+    const Lanes none{};
+    const Lanes abs_e = max_lanes(e, none - e);
+    const Lanes abs_f = max_lanes(f, none - f);
+    const Lanes n = __builtin_shufflevector(e, e, 1, 2, 0, 3) * __builtin_shufflevector(f, f, 2, 0, 1, 3) -
+                    __builtin_shufflevector(e, e, 2, 0, 1, 3) * __builtin_shufflevector(f, f, 1, 2, 0, 3);
+    const float size = largest(max_lanes(abs_e, abs_f));
+    return size > 0x1p-40f && size < 0x1p40f && largest(max_lanes(n, none - n)) > 0x1p-18f * size * size;
 }
 
 // What a run of triangles of one mesh adds up to.
@@ -50,8 +59,8 @@ struct Survey {
 Survey survey(const TriangleMesh& mesh, std::uint32_t begin, std::uint32_t end) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Survey result;
-    Vec3f lower(infinity);
-    Vec3f upper(-infinity);
+    Lanes lower = fill_lanes(infinity);
+    Lanes upper = fill_lanes(-infinity);
     const bool is_float32 = mesh.is_float32();
     for (std::uint32_t i = begin; i < end; ++i) {
         if (!mesh.is_valid(i)) {
@@ -60,10 +69,13 @@ Survey survey(const TriangleMesh& mesh, std::uint32_t begin, std::uint32_t end) 
             continue;
         }
         if (is_float32) {
-            const CornersF c = mesh.corners_float32(i);
-            if (surely_has_area(c)) {
-                lower = glm::min(lower, glm::min(c[0], glm::min(c[1], c[2])));
-                upper = glm::max(upper, glm::max(c[0], glm::max(c[1], c[2])));
+            const CornersF corners = mesh.corners_float32(i);
+            const Lanes a = lanes_of(corners[0]);
+            const Lanes b = lanes_of(corners[1]);
+            const Lanes c = lanes_of(corners[2]);
+            if (surely_has_area(a, b, c)) {
+                lower = min_lanes(min_lanes(a, b), min_lanes(c, lower));
+                upper = max_lanes(max_lanes(a, b), max_lanes(c, upper));
                 continue;
             }
         }
@@ -75,7 +87,7 @@ Survey survey(const TriangleMesh& mesh, std::uint32_t begin, std::uint32_t end) 
         }
         for (const Vec3& p : c) result.bounds.extend(p);
     }
-    result.bounds.extend(Box{Vec3(lower), Vec3(upper)});
+    result.bounds.extend(Box{vec3_of(lower), vec3_of(upper)});
     return result;
 }
 

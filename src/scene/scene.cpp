@@ -55,7 +55,7 @@ void Scene::set_effort(Effort effort, Rule rule, double time_limit_seconds) {
 void Scene::commit(const Parallel& parallel, Progress& progress) {
     require_uncommitted();
     PlanRequest request;
-    request.primitives = std::make_shared<const Primitives>(meshes_);
+    request.primitives = std::make_shared<const Primitives>(meshes_, parallel);
     request.profile = profile_;
     request.workload = workload_;
     request.sample = sample_;
