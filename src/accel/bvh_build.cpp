@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace raywise {
 
@@ -25,10 +26,10 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
 
     const TreeCosts costs(input, options);
     tree.center = choose_bvh_center(input.primitives.bounds());
-    const BuildReferences references = gather_references(input, tree.center, report);
+    BuildReferences references = gather_references(input, tree.center, report);
     Clusters clusters(
         references.items.get(),
-        morton_order(references.items.get(), references.count, references.centroids, input.parallel),
+        morton_order(references.items.get(), std::move(references.keys), references.count, input.parallel),
         references.count);
     clusters.build(references.bounds, input.parallel, report);
     tree.references.resize(references.count);

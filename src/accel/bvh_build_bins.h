@@ -57,7 +57,7 @@ public:
     static constexpr int most = 32;
     // The more items, the more it pays to look closely.
     static constexpr int count_for(std::uint32_t items) {
-        return static_cast<int>(std::min<std::uint32_t>(most, 4 + items / 16));
+        return static_cast<int>(std::min<std::uint32_t>(most, 6 + items / 12));
     }
 
     explicit Bins(int count) : count_(count) {

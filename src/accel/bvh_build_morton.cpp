@@ -8,12 +8,10 @@
 namespace raywise {
 namespace {
 
-constexpr int bits_per_axis = 10;
-
 // A pass of the radix sort orders by so many bits: three passes see all of a code.
 constexpr int digit_bits = 10;
 constexpr std::size_t digit_count = std::size_t{1} << digit_bits;
-constexpr int passes = 3 * bits_per_axis / digit_bits;
+constexpr int passes = 3 * MortonGrid::bits_per_axis / digit_bits;
 
 // Items a thread sorts on its own.
 constexpr std::uint32_t block_size = 65536;
@@ -25,45 +23,6 @@ constexpr std::uint32_t longest_run = 16;
 constexpr int most_refinements = 30;
 
 using Key = MortonKey;
-
-// Spreads the lowest ten bits of x so that two zeros follow each.
-std::uint32_t spread(std::uint32_t x) {
-    x = (x | (x << 16)) & 0x030000FFu;
-    x = (x | (x << 8)) & 0x0300F00Fu;
-    x = (x | (x << 4)) & 0x030C30C3u;
-    x = (x | (x << 2)) & 0x09249249u;
-    return x;
-}
-
-// A grid of 2^10 cells along each axis over the bounds of centroids.
-class MortonGrid {
-public:
-    explicit MortonGrid(const Bounds& bounds) : unit_(fill_lanes(bounds.reciprocal_size())) {
-        // In units of the largest extent, so that no difference over- or underflows.
-        const Lanes lower = bounds.lower * unit_;
-        const Lanes extent = bounds.upper * unit_ - lower;
-        for (int axis = 0; axis < 3; ++axis) {
-            const bool divides = extent[axis] > 0.0f;
-            lower_[axis] = divides ? lower[axis] : 0.0f;
-            scale_[axis] = divides ? std::min((1 << bits_per_axis) / extent[axis], 0x1p100f) : 0.0f;
-            divides_ = divides_ || divides;
-        }
-    }
-    bool divides() const { return divides_; }
-    std::uint32_t code(const BuildItem& item) const {
-        const Lanes position = (Bounds::of(item).centroid() * unit_ - lower_) * scale_;
-        const IntLanes cell = __builtin_convertvector(
-            min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
-        return spread(static_cast<std::uint32_t>(cell[0])) | (spread(static_cast<std::uint32_t>(cell[1])) << 1) |
-               (spread(static_cast<std::uint32_t>(cell[2])) << 2);
-    }
-
-private:
-    Lanes unit_;
-    Lanes lower_{};
-    Lanes scale_{};
-    bool divides_ = false;
-};
 
 std::uint32_t digit(const Key& key, int pass) { return (key.code >> (pass * digit_bits)) & (digit_count - 1); }
 
@@ -100,23 +59,22 @@ void radix_sort(Key* keys, Key* other, std::uint32_t count, const Parallel& para
 
 class MortonSorter {
 public:
-    MortonSorter(const BuildItem* items, std::uint32_t count, const Parallel& parallel)
-        : items_(items),
-          parallel_(parallel),
-          keys_(make_build_array<Key>(count)),
-          other_(make_build_array<Key>(count)) {}
+    MortonSorter(const BuildItem* items, BuildArray<Key> keys, std::uint32_t count, const Parallel& parallel)
+        : items_(items), parallel_(parallel), keys_(make_build_array<Key>(count)), other_(std::move(keys)) {}
 
-    BuildArray<Key> sort(std::uint32_t count, const Bounds& centroids) {
-        parallel_.for_blocks(count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
-            for (std::uint64_t i = begin; i < end; ++i) keys_[i].index = static_cast<std::uint32_t>(i);
-        });
-        std::vector<Run> large{{0, count, 0}};
+    BuildArray<Key> sort(std::uint32_t count) {
+        std::vector<Run> large;
         std::vector<Run> small;
+        const auto look_closer = [&](const Run& run) {
+            for_equal(run, [&](const Run& part) { (part.count > block_size ? large : small).push_back(part); });
+        };
+        radix_sort(other_.get(), keys_.get(), count, parallel_);
+        look_closer({0, count, 0});
         while (!large.empty()) {
             const Run run = large.back();
             large.pop_back();
-            sort_large(run, run.refinements == 0 ? centroids : bounds_of(run));
-            for_equal(run, [&](const Run& part) { (part.count > block_size ? large : small).push_back(part); });
+            sort_large(run);
+            look_closer(run);
         }
         other_.reset();
         parallel_.for_blocks(small.size(), 1, [&](std::uint64_t begin, std::uint64_t end) {
@@ -141,12 +99,12 @@ private:
         return bounds;
     }
 
-    void sort_large(const Run& run, const Bounds& bounds) {
-        const MortonGrid grid(bounds);
+    void sort_large(const Run& run) {
+        const MortonGrid grid(bounds_of(run));
         parallel_.for_blocks(run.count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = run.begin + begin; i < run.begin + end; ++i) {
                 const std::uint32_t index = keys_[i].index;
-                other_[i] = {grid.code(items_[index]), index};
+                other_[i] = {grid.code(Bounds::of(items_[index]).centroid()), index};
             }
         });
         radix_sort(other_.get() + run.begin, keys_.get() + run.begin, run.count, parallel_);
@@ -156,22 +114,22 @@ private:
         const MortonGrid grid(bounds_of(run));
         if (!grid.divides()) return;
         Key* const keys = keys_.get() + run.begin;
-        for (std::uint32_t i = 0; i < run.count; ++i) keys[i].code = grid.code(items_[keys[i].index]);
+        for (std::uint32_t i = 0; i < run.count; ++i) keys[i].code = grid.code(Bounds::of(items_[keys[i].index]).centroid());
         std::sort(keys, keys + run.count, [](const Key& a, const Key& b) {
             return a.code < b.code || (a.code == b.code && a.index < b.index);
         });
         for_equal(run, [&](const Run& part) { sort_small(part); });
     }
 
-    // Calls body for each run of equal codes that is worth a finer grid. A grid that divides puts the lowest and the
-    // highest centroid of an axis into different cells, so the runs become shorter.
+    // Calls body for each run of equal codes that is worth a finer grid. A grid over the run's own centroids puts the
+    // lowest and the highest of an axis into different cells, so the runs become shorter unless all are at one place.
     template <class Body>
     void for_equal(const Run& run, const Body& body) const {
         if (run.refinements == most_refinements) return;
         const Key* const keys = keys_.get() + run.begin;
         for (std::uint32_t begin = 0, end = 0; begin < run.count; begin = end) {
             while (end < run.count && keys[end].code == keys[begin].code) ++end;
-            if (end - begin > longest_run && end - begin < run.count) {
+            if (end - begin > longest_run && (run.refinements == 0 || end - begin < run.count)) {
                 body({run.begin + begin, end - begin, run.refinements + 1});
             }
         }
@@ -185,9 +143,9 @@ private:
 
 } // namespace
 
-BuildArray<MortonKey> morton_order(const BuildItem* items, std::uint32_t count, const Bounds& centroids,
-                                          const Parallel& parallel) {
-    return MortonSorter(items, count, parallel).sort(count, centroids);
+BuildArray<MortonKey> morton_order(const BuildItem* items, BuildArray<MortonKey> keys, std::uint32_t count,
+                                   const Parallel& parallel) {
+    return MortonSorter(items, std::move(keys), count, parallel).sort(count);
 }
 
 } // namespace raywise

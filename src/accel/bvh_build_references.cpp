@@ -1,7 +1,6 @@
 #include "accel/bvh_build_references.h"
 
 #include <algorithm>
-#include <mutex>
 #include <vector>
 
 namespace raywise {
@@ -51,14 +50,16 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     BuildReferences references;
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
     references.items = make_build_array<BuildItem>(references.count);
+    references.keys = make_build_array<MortonKey>(references.count);
+    const BoxF box = round_outwards({primitives.bounds().lower - center, primitives.bounds().upper - center});
+    const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f}, Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
+    const MortonGrid grid(all);
+    references.bounds = all;
     const bool exact = center == Vec3(0.0);
-    std::mutex mutex;
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;
     input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
         const std::uint64_t begin = chunk * chunk_size;
         const std::uint64_t end = std::min<std::uint64_t>(references.count, begin + chunk_size);
-        Bounds bounds = Bounds::none();
-        Bounds centroids = Bounds::none();
         PrimitiveId id{0, 0};
         std::uint32_t next = 0; // the first primitive after the mesh of `id`
         for (std::uint64_t i = begin; i < end; ++i) {
@@ -74,13 +75,7 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
             item.id = primitive;
             item.count = 1;
             references.items[i] = item;
-            bounds.extend(Bounds::of(item));
-            centroids.extend(Bounds::of_centroid(item));
-        }
-        {
-            const std::lock_guard lock(mutex);
-            references.bounds.extend(bounds);
-            references.centroids.extend(centroids);
+            references.keys[i] = {grid.code(Bounds::of(item).centroid()), static_cast<std::uint32_t>(i)};
         }
         report(end - begin);
     });

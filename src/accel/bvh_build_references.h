@@ -4,6 +4,7 @@
 #include "accel/accel.h"
 #include "accel/bvh_build_bounds.h"
 #include "accel/bvh_build_memory.h"
+#include "accel/bvh_build_morton.h"
 
 #include <cstdint>
 #include <functional>
@@ -15,9 +16,9 @@ Vec3 choose_bvh_center(const Box& bounds);
 
 struct BuildReferences {
     BuildArray<BuildItem> items; // id: the primitive; in the order of primitives
+    BuildArray<MortonKey> keys;  // codes by a grid over all, one for each item
     std::uint32_t count = 0;
     Bounds bounds = Bounds::none();
-    Bounds centroids = Bounds::none(); // bounds of the boxes' centroids
 };
 
 // report: called with numbers of primitives that are done.

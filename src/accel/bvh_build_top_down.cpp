@@ -17,7 +17,7 @@ constexpr std::uint32_t least_job_size = 512;
 constexpr std::uint32_t jobs_wanted = 64;
 
 // Parts of so few clusters are split by what the clusters were merged from, pairs of primitives at most.
-constexpr std::uint32_t open_below = 16;
+constexpr std::uint32_t open_below = 128;
 
 // One level for the two primitives of a pair. A part that is opened has up to 2^opened_log times as many items.
 constexpr int opened_log = Clusters::most_rounds;
