@@ -5,6 +5,7 @@
 #include "accel/bvh_build_morton.h"
 #include "accel/bvh_build_references.h"
 #include "accel/bvh_build_top_down.h"
+#include "accel/bvh_spatial_splits.h"
 
 #include <algorithm>
 #include <atomic>
@@ -27,6 +28,10 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
     const TreeCosts costs(input, options);
     tree.center = choose_bvh_center(input.primitives.bounds());
     BuildReferences references = gather_references(input, tree.center, report);
+    if (options.quality == BvhQuality::high) {
+        build_with_spatial_splits(std::move(references), input, costs, report, tree);
+        return tree;
+    }
     Clusters clusters(
         references.items.get(),
         morton_order(references.items.get(), std::move(references.keys), references.count, input.parallel),

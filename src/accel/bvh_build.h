@@ -44,17 +44,24 @@ struct BvhTree {
     }
 };
 
+enum class BvhQuality {
+    fast, // clusters from below, split from above
+    high  // split from above down to the primitives, which may be cut in two: slower to build, faster to trace
+};
+
 struct BvhBuildOptions {
     std::uint32_t max_leaf_size = 16;
     // Primitives that a leaf tests at once: it costs BuildCosts::primitive_test_ns for each block it begins. A
     // power of two.
     std::uint32_t block_size = 1;
     std::optional<BuildCosts> costs; // instead of the input's
+    BvhQuality quality = BvhQuality::fast;
 };
 
-// Builds the tree. Where primitives are as close together as neighbours on a surface, nearest ones are merged from below
-// (bvh_build_clusters.h); the clusters are then split from above by the surface area heuristic (bvh_build_top_down.h).
-// The same tree for any number of threads and every instruction set. Progress is reported from 0 to `progress_end`.
+// Builds the tree. Fast: nearest primitives are merged from below (bvh_build_clusters.h), and the clusters split from above
+// by the surface area heuristic (bvh_build_top_down.h). High: bvh_spatial_splits.h; a primitive can be among the references
+// more than once. The same tree for any number of threads and every instruction set. Progress is reported from 0 to
+// `progress_end`.
 BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0, const BvhBuildOptions& options = {});
 
 } // namespace raywise
