@@ -32,13 +32,13 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
         build_with_spatial_splits(std::move(references), input, costs, report, tree);
         return tree;
     }
-    Clusters clusters(
-        references.items.get(),
-        morton_order(references.items.get(), std::move(references.keys), references.count, input.parallel),
-        references.count);
-    clusters.build(references.bounds, input.parallel, report);
-    tree.references.resize(references.count);
-    build_top_down(clusters, references.bounds, costs, input.parallel, report, tree);
+    const Bounds bounds = references.bounds;
+    const std::uint32_t count = references.count;
+    auto order = morton_order(references.items.get(), std::move(references.keys), count, input.parallel);
+    Clusters clusters(std::move(references.items), std::move(order), count);
+    clusters.build(bounds, input.parallel, report);
+    tree.references.resize(count);
+    build_top_down(clusters, bounds, costs, input.parallel, report, tree);
     return tree;
 }
 

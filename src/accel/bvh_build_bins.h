@@ -128,7 +128,8 @@ public:
 
 private:
     // Half area times blocks of primitives, of what is left of a bin on each axis, or right.
-    RW_INLINE static Lanes weigh(const Bounds* sums, const CountLanes& primitives, const Lanes& unit, const TreeCosts& costs) {
+    RW_INLINE static Lanes weigh(const Bounds* sums, const CountLanes& primitives, const Lanes& unit,
+                                 const TreeCosts& costs) {
         const Lanes a = sums[0].upper * unit - sums[0].lower * unit;
         const Lanes b = sums[1].upper * unit - sums[1].lower * unit;
         const Lanes c = sums[2].upper * unit - sums[2].lower * unit;

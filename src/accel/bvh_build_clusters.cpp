@@ -17,7 +17,10 @@ constexpr double least_shrink = 0.95;
 class Clusters::Range {
 public:
     Range(const Clusters& owner, float scale)
-        : owner_(owner), scale_(fill_lanes(scale)), boxes_(range_size), clusters_(make_build_array<BuildItem>(range_size)) {}
+        : owner_(owner),
+          scale_(fill_lanes(scale)),
+          boxes_(range_size),
+          clusters_(make_build_array<BuildItem>(range_size)) {}
 
     // Returns the clusters.
     std::vector<BuildItem> build(std::uint32_t begin) {
@@ -117,8 +120,7 @@ private:
     std::uint32_t node_count_ = 0;
 };
 
-void Clusters::build(const Bounds& bounds, const Parallel& parallel,
-                     const std::function<void(std::uint64_t)>& report) {
+void Clusters::build(const Bounds& bounds, const Parallel& parallel, const std::function<void(std::uint64_t)>& report) {
     const std::uint64_t ranges = (count_ + range_size - 1) / range_size;
     nodes_ = make_build_array<Node>(count_);
     std::vector<std::vector<BuildItem>> tops(ranges);
@@ -137,6 +139,13 @@ void Clusters::build(const Bounds& bounds, const Parallel& parallel,
         tops_.insert(tops_.end(), part.begin(), part.end());
         part = {};
     }
+}
+
+void Clusters::release() {
+    items_.reset();
+    keys_.reset();
+    nodes_.reset();
+    tops_ = {};
 }
 
 void Clusters::open(const BuildItem& cluster, std::vector<BuildItem>& parts) const {

@@ -27,9 +27,9 @@ public:
     // Each leaves about two thirds of the clusters. Figures: docs/decisions/0011-bvh-builders.md.
     static constexpr int most_rounds = 3;
 
-    // items: the references, which have to outlive this. keys: their order.
-    Clusters(const BuildItem* items, BuildArray<MortonKey> keys, std::uint32_t count)
-        : items_(items), keys_(std::move(keys)), count_(count) {}
+    // items: the references. keys: their order.
+    Clusters(BuildArray<BuildItem> items, BuildArray<MortonKey> keys, std::uint32_t count)
+        : items_(std::move(items)), keys_(std::move(keys)), count_(count) {}
 
     // report: called with numbers of references that are done.
     void build(const Bounds& bounds, const Parallel& parallel, const std::function<void(std::uint64_t)>& report);
@@ -44,6 +44,9 @@ public:
     std::array<const BuildItem*, 2> references(const BuildItem& cluster) const;
     // Writes the primitives of such a cluster. Returns where the next ones go.
     std::uint32_t* emit_primitives(const BuildItem& cluster, std::uint32_t* primitives) const;
+
+    // Gives the memory back. Nothing can be asked any more.
+    void release();
 
 private:
     // Two merged clusters. Within a range the numbers below range_size are references, from there on nodes.
@@ -61,7 +64,7 @@ private:
     const Node& node(const BuildItem& cluster) const { return nodes_[cluster.id]; }
     static std::uint32_t range_of(const BuildItem& cluster) { return cluster.id / range_size * range_size; }
 
-    const BuildItem* const items_;
+    BuildArray<BuildItem> items_;
     BuildArray<MortonKey> keys_; // the codes make room for the primitives
     const std::uint32_t count_;
     BuildArray<Node> nodes_; // of each range, from the number of its first reference on

@@ -85,8 +85,8 @@ BinSplit best_split(const Bins& bins, const Bounds& bounds, const TreeCosts& cos
 
 std::uint32_t partition_items(BuildItem* items, std::uint32_t count, const Binning& binning, const BinSplit& split,
                               BuildItem* scratch, Bounds& left_centroids, Bounds& right_centroids) {
-    return HWY_DYNAMIC_DISPATCH(partition_items)
-    (items, count, binning, split, scratch, left_centroids, right_centroids);
+    return HWY_DYNAMIC_DISPATCH(partition_items)(items, count, binning, split, scratch, left_centroids,
+                                                 right_centroids);
 }
 
 } // namespace raywise

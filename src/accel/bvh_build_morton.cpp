@@ -114,7 +114,8 @@ private:
         const MortonGrid grid(bounds_of(run));
         if (!grid.divides()) return;
         Key* const keys = keys_.get() + run.begin;
-        for (std::uint32_t i = 0; i < run.count; ++i) keys[i].code = grid.code(Bounds::of(items_[keys[i].index]).centroid());
+        for (std::uint32_t i = 0; i < run.count; ++i)
+            keys[i].code = grid.code(Bounds::of(items_[keys[i].index]).centroid());
         std::sort(keys, keys + run.count, [](const Key& a, const Key& b) {
             return a.code < b.code || (a.code == b.code && a.index < b.index);
         });

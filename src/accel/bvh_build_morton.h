@@ -34,8 +34,8 @@ public:
     bool divides() const { return divides_; }
     std::uint32_t code(const Lanes& centroid) const {
         const Lanes position = (centroid * unit_ - lower_) * scale_;
-        const IntLanes cell = __builtin_convertvector(
-            min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
+        const IntLanes cell =
+            __builtin_convertvector(min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
         return spread(static_cast<std::uint32_t>(cell[0])) | (spread(static_cast<std::uint32_t>(cell[1])) << 1) |
                (spread(static_cast<std::uint32_t>(cell[2])) << 2);
     }

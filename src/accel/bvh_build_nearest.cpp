@@ -54,8 +54,8 @@ void search_nearest(NearestBoxes& boxes, std::size_t count) {
                 const auto area = hn::LoadU(d, signed_step > 0 ? row + i : row + i - step);
                 const auto better = hn::Lt(area, best);
                 best = hn::IfThenElse(better, area, best);
-                offset = hn::IfThenElse(hn::RebindMask(di, better),
-                                        hn::Set(di, static_cast<std::int32_t>(signed_step)), offset);
+                offset = hn::IfThenElse(hn::RebindMask(di, better), hn::Set(di, static_cast<std::int32_t>(signed_step)),
+                                        offset);
             }
         }
         const auto none = hn::RebindMask(di, hn::Not(hn::Lt(best, infinity)));

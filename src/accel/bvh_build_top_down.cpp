@@ -76,9 +76,8 @@ private:
         if (item.count == 1) return make_leaf(part, &item - part.begin);
         const std::array<const BuildItem*, 2> references = clusters_.references(item);
         const Bounds children[2] = {Bounds::of(*references[0]), Bounds::of(*references[1])};
-        const double split =
-            costs_.node * part.bounds.half_area() +
-            costs_.leaf(1) * (children[0].half_area() + children[1].half_area());
+        const double split = costs_.node * part.bounds.half_area() +
+                             costs_.leaf(1) * (children[0].half_area() + children[1].half_area());
         if (costs_.max_leaf_size >= 2 && costs_.leaf(2) * part.bounds.half_area() <= split) {
             return make_leaf(part, &item - part.begin);
         }
@@ -126,6 +125,7 @@ public:
     void build(const Bounds& bounds) {
         split_top(bounds);
         build_jobs();
+        clusters_.release(); // before the tree needs memory twice
         assemble();
     }
 

@@ -11,7 +11,8 @@
 namespace raywise {
 
 // Splits the clusters' items by the surface area heuristic with bins until one is left, and puts the clusters' own trees
-// below, or makes a leaf of several. The order of the items is changed. bounds: of all items. report: called with
+// below, or makes a leaf of several. Takes the
+// clusters apart. bounds: of all items. report: called with
 // numbers of primitives that are done.
 void build_top_down(Clusters& clusters, const Bounds& bounds, const TreeCosts& costs, const Parallel& parallel,
                     const std::function<void(std::uint64_t)>& report, BvhTree& tree);

@@ -99,7 +99,8 @@ public:
             weight = static_cast<double>(object.weight) / (unit * unit);
         }
         SpatialSplit spatial;
-        if (task.budget > 0 && count > 2 * costs_.max_leaf_size && (object.axis == no_axis || overlap_area(object.left, object.right) > least_overlap_)) {
+        if (task.budget > 0 && count > 2 * costs_.block_size &&
+            (object.axis == no_axis || overlap_area(object.left, object.right) > least_overlap_)) {
             spatial = find_spatial_split(task);
         }
         const double best = std::min(weight, spatial.weight);

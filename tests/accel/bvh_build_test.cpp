@@ -30,9 +30,7 @@ void expect_sound(const Triangles& triangles, const BvhBuildOptions& options, un
     for (int i = 0; i < 5; ++i) expect_closest(scene, tree, any_ray(triangles, scene.bounds(), random));
 }
 
-Triangles copies(std::size_t count) {
-    return Triangles(count, {Vec3(0.0), Vec3(1.0, 0.0, 0.5), Vec3(0.0, 1.0, 0.5)});
-}
+Triangles copies(std::size_t count) { return Triangles(count, {Vec3(0.0), Vec3(1.0, 0.0, 0.5), Vec3(0.0, 1.0, 0.5)}); }
 
 // Every triangle around the same centroid of its box, each a little larger than the one before.
 Triangles one_centroid(std::size_t count) {

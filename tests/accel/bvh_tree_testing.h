@@ -43,7 +43,8 @@ inline TreeShape shape_of(const BvhTree& tree) {
 
 inline bool contains(const BvhNode& outer, const BvhNode& inner) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (inner.planes[0][axis] < outer.planes[0][axis] || inner.planes[1][axis] > outer.planes[1][axis]) return false;
+        if (inner.planes[0][axis] < outer.planes[0][axis] || inner.planes[1][axis] > outer.planes[1][axis])
+            return false;
     }
     return true;
 }
@@ -80,7 +81,8 @@ inline void expect_valid_tree(const BvhTree& tree, const Primitives& primitives,
             for (const Vec3& corner : primitives.corners(tree.references[node.first + i])) {
                 for (int axis = 0; axis < 3; ++axis) {
                     const double at = corner[axis] - tree.center[axis];
-                    if (at < static_cast<double>(node.planes[0][axis]) || at > static_cast<double>(node.planes[1][axis]))
+                    if (at < static_cast<double>(node.planes[0][axis]) ||
+                        at > static_cast<double>(node.planes[1][axis]))
                         ++outside;
                 }
             }
