@@ -5,12 +5,21 @@
 namespace raywise {
 namespace {
 
-constexpr double binary_part = 0.85; // of the time that building takes
+constexpr double binary_part = 0.8; // of the time that building takes
+
+// A block of triangles takes one comparison of eight at a time, as a node does of its boxes, and about as long.
+BvhBuildOptions options() {
+    BvhBuildOptions result;
+    result.max_leaf_size = block_size;
+    result.block_size = block_size;
+    result.costs = BuildCosts{1.0, 1.0};
+    return result;
+}
 
 } // namespace
 
 Bvh::Bvh(const BuildInput& input)
-    : primitives_(input.primitives), tree_(widen(build_bvh(input, binary_part), input, binary_part)) {}
+    : primitives_(input.primitives), tree_(widen(build_bvh(input, binary_part, options()), input, binary_part)) {}
 
 SurfaceHit Bvh::closest(const PreparedRay& ray) const { return closest_hit({tree_, primitives_}, ray); }
 bool Bvh::any(const PreparedRay& ray) const { return any_hit({tree_, primitives_}, ray); }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace raywise {
@@ -43,9 +44,24 @@ struct BvhTree {
     }
 };
 
-// Builds the tree top-down by the surface area heuristic, with bins (Wald 2007, "On fast Construction of SAH-based
-// Bounding Volume Hierarchies"). The same tree for any number of threads. Progress is reported from 0 to
+enum class BvhQuality {
+    fast, // clusters from below, split from above
+    high  // split from above down to the primitives, which may be cut in two: slower to build, faster to trace
+};
+
+struct BvhBuildOptions {
+    std::uint32_t max_leaf_size = 16;
+    // Primitives that a leaf tests at once: it costs BuildCosts::primitive_test_ns for each block it begins. A
+    // power of two.
+    std::uint32_t block_size = 1;
+    std::optional<BuildCosts> costs; // instead of the input's
+    BvhQuality quality = BvhQuality::fast;
+};
+
+// Builds the tree. Fast: nearest primitives are merged from below (bvh_build_clusters.h), and the clusters split from above
+// by the surface area heuristic (bvh_build_top_down.h). High: bvh_spatial_splits.h; a primitive can be among the references
+// more than once. The same tree for any number of threads and every instruction set. Progress is reported from 0 to
 // `progress_end`.
-BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0);
+BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0, const BvhBuildOptions& options = {});
 
 } // namespace raywise

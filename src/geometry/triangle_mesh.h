@@ -35,6 +35,7 @@ struct StridedArray {
     double number(std::uint64_t element, int component = 0) const;       // float32 or float64
     std::uint64_t index(std::uint64_t element, int component = 0) const; // uint32 or uint64
     Vec3 vec3(std::uint64_t element) const;                              // float32 or float64
+    Vec3f vec3f(std::uint64_t element) const;                            // float32
 
     bool has_rows() const { return component_stride == static_cast<std::ptrdiff_t>(size_of(scalar)); } // side by side
     bool is_packed() const { return has_rows() && stride == 3 * component_stride; } // of three components
@@ -53,15 +54,18 @@ inline std::uint64_t StridedArray::index(std::uint64_t element, int component) c
     return index;
 }
 
-inline Vec3 StridedArray::vec3(std::uint64_t element) const {
+inline Vec3f StridedArray::vec3f(std::uint64_t element) const {
     const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
-    if (scalar == Scalar::float32) {
-        float x, y, z;
-        std::memcpy(&x, address, sizeof x);
-        std::memcpy(&y, address + component_stride, sizeof y);
-        std::memcpy(&z, address + 2 * component_stride, sizeof z);
-        return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-    }
+    float x, y, z;
+    std::memcpy(&x, address, sizeof x);
+    std::memcpy(&y, address + component_stride, sizeof y);
+    std::memcpy(&z, address + 2 * component_stride, sizeof z);
+    return {x, y, z};
+}
+
+inline Vec3 StridedArray::vec3(std::uint64_t element) const {
+    if (scalar == Scalar::float32) return Vec3(vec3f(element));
+    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
     double x, y, z;
     std::memcpy(&x, address, sizeof x);
     std::memcpy(&y, address + component_stride, sizeof y);
@@ -77,6 +81,7 @@ struct TriangleArrays {
 };
 
 using Corners = std::array<Vec3, 3>;
+using CornersF = std::array<Vec3f, 3>;
 
 class TriangleMesh {
 public:
@@ -88,13 +93,14 @@ public:
 
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(arrays_.triangle_count); }
     Corners corners(std::uint32_t triangle) const {
-        if (arrays_.indices.data == nullptr) {
-            const std::uint64_t first = std::uint64_t{3} * triangle;
-            return {arrays_.vertices.vec3(first), arrays_.vertices.vec3(first + 1), arrays_.vertices.vec3(first + 2)};
-        }
-        return {arrays_.vertices.vec3(arrays_.indices.index(triangle, 0)),
-                arrays_.vertices.vec3(arrays_.indices.index(triangle, 1)),
-                arrays_.vertices.vec3(arrays_.indices.index(triangle, 2))};
+        const std::array<std::uint64_t, 3> v = vertices_of(triangle);
+        return {arrays_.vertices.vec3(v[0]), arrays_.vertices.vec3(v[1]), arrays_.vertices.vec3(v[2])};
+    }
+    // Whether the vertices are float32; then the corners can be had as they are.
+    bool is_float32() const { return arrays_.vertices.scalar == Scalar::float32; }
+    CornersF corners_float32(std::uint32_t triangle) const {
+        const std::array<std::uint64_t, 3> v = vertices_of(triangle);
+        return {arrays_.vertices.vec3f(v[0]), arrays_.vertices.vec3f(v[1]), arrays_.vertices.vec3f(v[2])};
     }
 
     // Where the corners are, for those who read many.
@@ -108,6 +114,14 @@ public:
     std::size_t bytes() const { return vertex_copy_.size() + index_copy_.size() + invalid_.size() / 8; }
 
 private:
+    std::array<std::uint64_t, 3> vertices_of(std::uint32_t triangle) const {
+        if (arrays_.indices.data == nullptr) {
+            const std::uint64_t first = std::uint64_t{3} * triangle;
+            return {first, first + 1, first + 2};
+        }
+        return {arrays_.indices.index(triangle, 0), arrays_.indices.index(triangle, 1),
+                arrays_.indices.index(triangle, 2)};
+    }
     void check(bool skip_invalid);
     bool vertices_are_usable() const;
     bool indices_are_in_range() const;
