@@ -33,13 +33,18 @@ public:
     const double* center4() const { return center_; } // x y z, and a zero
     const Box& bounds() const { return bounds_; }     // of the scene, in its own coordinates
 
-    // Zero where that costs no more than three bits of float32's 24: there float32 coordinates are kept without loss. Elsewhere
-    // the middle of the scene: float32 resolves 0.5 m at a distance of 5,000 km, so millimetre triangles that are kept in float64
-    // would all be alike.
+    // On each axis zero where that costs no more than three bits of float32's 24: there float32 coordinates are kept without loss.
+    // Elsewhere the middle of the scene: float32 resolves 0.5 m at a distance of 5,000 km, so millimetre triangles that are kept in
+    // float64 would all be alike. The middle is a float32 itself, so that its differences with float32 coordinates, which are near it,
+    // are too.
     static Vec3 choose_center(const Box& bounds) {
         const double size = max_component(bounds.size());
-        const Vec3 center = bounds.center();
-        return max_component(glm::abs(center)) > 8.0 * size ? center : Vec3(0.0);
+        Vec3 center(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double middle = 0.5 * bounds.lower[axis] + 0.5 * bounds.upper[axis];
+            if (std::fabs(middle) > 8.0 * size) center[axis] = static_cast<double>(static_cast<float>(middle));
+        }
+        return center;
     }
 
 private:

@@ -1,7 +1,8 @@
 // What the tests of builders ask of a tree.
 #pragma once
 
-#include "accel/bvh.h"
+#include "accel/binary_traversal.h"
+#include "accel/bvh_build.h"
 #include "accel/bvh_testing.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ inline void expect_closest(Scene& scene, const BvhTree& tree, const Ray& ray) {
     const PreparedRay prepared(ray, scene.bounds());
     ClosestVisitor visitor(scene.primitives(), prepared);
     traverse_boxes(tree, prepared, visitor);
-    EXPECT_TRUE(same_hit(LinearScan(scene.input()).closest(prepared), visitor.best())) << text_of(ray);
+    EXPECT_TRUE(same_hit(oracle::PlainScan(scene.input()).closest(prepared), visitor.best())) << text_of(ray);
 }
 
 } // namespace raywise::bvh_testing
