@@ -137,7 +137,7 @@ MachineConstants fit(const Measurements& measurements) {
     constants.hapala = fit_hapala(measurements);
 
     const std::size_t random = ray_kind_index(RayKind::random);
-    constants.primitive_test_ns = constants.structures[Structure::linear_scan].ray_ns[random].per_unit;
+    constants.primitive_test_ns = measurements.primitive_test_ns;
     const double level_ns = constants.structures[Structure::bvh].ray_ns[random].per_unit;
     constants.node_step_ns =
         std::clamp(0.5 * level_ns, constants.primitive_test_ns / 20.0, constants.primitive_test_ns * 2.0);

@@ -1,6 +1,7 @@
 #include "measure/measure.h"
 
 #include "base/structure.h"
+#include "measure/exact_test.h"
 #include "measure/library.h"
 #include "model/cost_functions.h"
 #include "model/workload.h"
@@ -213,6 +214,10 @@ MeasureResult measure(const Plan& plan, std::uint32_t threads, const MeasureProg
         watch.look();
         ++result.meshes;
     }
+    progress(1.0, "exact test");
+    const Timing exact_test = measure_exact_test(profile.get(), plan.ray_timing, threads == 1 ? processor_ns : now_ns);
+    result.measurements.primitive_test_ns = exact_test.ns;
+    if (exact_test.repetitions >= 3) spreads.push_back(exact_test.spread);
     progress(1.0, "done");
     result.noise = watch.judge(spreads);
     result.seconds = seconds();

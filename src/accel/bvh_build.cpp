@@ -35,7 +35,7 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
     }
     const Bounds bounds = references.bounds;
     const std::uint32_t count = references.count;
-    auto order = morton_order(references.items.get(), std::move(references.keys), count, input.parallel);
+    auto order = morton_order(references.items.data(), std::move(references.keys), count, input.parallel);
     Clusters clusters(std::move(references.items), std::move(order), count);
     clusters.build(bounds, input.parallel, report);
     tree.references.resize(count);

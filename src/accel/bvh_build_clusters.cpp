@@ -16,11 +16,8 @@ constexpr double least_shrink = 0.95;
 // The clusters of one range after another, with memory that is used again.
 class Clusters::Range {
 public:
-    Range(const Clusters& owner, float scale)
-        : owner_(owner),
-          scale_(fill_lanes(scale)),
-          boxes_(range_size),
-          clusters_(make_build_array<BuildItem>(range_size)) {}
+    Range(Clusters& owner, float scale)
+        : owner_(owner), scale_(fill_lanes(scale)), boxes_(range_size), clusters_(PageArray<BuildItem>(range_size)) {}
 
     // Returns the clusters.
     std::vector<BuildItem> build(std::uint32_t begin) {
@@ -32,7 +29,7 @@ public:
             merge();
             if (count_ > least_shrink * before) break;
         }
-        std::vector<BuildItem> result(clusters_.get(), clusters_.get() + count_);
+        std::vector<BuildItem> result(clusters_.data(), clusters_.data() + count_);
         for (BuildItem& cluster : result) {
             cluster.id = begin + (cluster.count > 1 ? cluster.id - range_size : cluster.id);
         }
@@ -111,10 +108,10 @@ private:
         return result;
     }
 
-    const Clusters& owner_;
+    Clusters& owner_;
     const Lanes scale_;
     NearestBoxes boxes_;
-    BuildArray<BuildItem> clusters_;
+    PageArray<BuildItem> clusters_;
     std::uint32_t begin_ = 0;
     std::uint32_t count_ = 0;
     std::uint32_t node_count_ = 0;
@@ -122,7 +119,7 @@ private:
 
 void Clusters::build(const Bounds& bounds, const Parallel& parallel, const std::function<void(std::uint64_t)>& report) {
     const std::uint64_t ranges = (count_ + range_size - 1) / range_size;
-    nodes_ = make_build_array<Node>(count_);
+    nodes_ = PageArray<Node>(count_);
     std::vector<std::vector<BuildItem>> tops(ranges);
     const float scale = bounds.reciprocal_size();
     parallel.for_blocks(ranges, 1, [&](std::uint64_t begin, std::uint64_t end) {
@@ -142,9 +139,9 @@ void Clusters::build(const Bounds& bounds, const Parallel& parallel, const std::
 }
 
 void Clusters::release() {
-    items_.reset();
-    keys_.reset();
-    nodes_.reset();
+    items_ = {};
+    keys_ = {};
+    nodes_ = {};
     tops_ = {};
 }
 

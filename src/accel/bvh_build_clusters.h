@@ -2,8 +2,8 @@
 #pragma once
 
 #include "accel/bvh_build_bounds.h"
-#include "accel/bvh_build_memory.h"
 #include "accel/bvh_build_morton.h"
+#include "base/page_array.h"
 #include "base/parallel.h"
 
 #include <array>
@@ -28,7 +28,7 @@ public:
     static constexpr int most_rounds = 3;
 
     // items: the references. keys: their order.
-    Clusters(BuildArray<BuildItem> items, BuildArray<MortonKey> keys, std::uint32_t count)
+    Clusters(PageArray<BuildItem> items, PageArray<MortonKey> keys, std::uint32_t count)
         : items_(std::move(items)), keys_(std::move(keys)), count_(count) {}
 
     // report: called with numbers of references that are done.
@@ -64,10 +64,10 @@ private:
     const Node& node(const BuildItem& cluster) const { return nodes_[cluster.id]; }
     static std::uint32_t range_of(const BuildItem& cluster) { return cluster.id / range_size * range_size; }
 
-    BuildArray<BuildItem> items_;
-    BuildArray<MortonKey> keys_; // the codes make room for the primitives
+    PageArray<BuildItem> items_;
+    PageArray<MortonKey> keys_; // the codes make room for the primitives
     const std::uint32_t count_;
-    BuildArray<Node> nodes_; // of each range, from the number of its first reference on
+    PageArray<Node> nodes_; // of each range, from the number of its first reference on
     std::vector<BuildItem> tops_;
 };
 

@@ -59,16 +59,16 @@ void radix_sort(Key* keys, Key* other, std::uint32_t count, const Parallel& para
 
 class MortonSorter {
 public:
-    MortonSorter(const BuildItem* items, BuildArray<Key> keys, std::uint32_t count, const Parallel& parallel)
-        : items_(items), parallel_(parallel), keys_(make_build_array<Key>(count)), other_(std::move(keys)) {}
+    MortonSorter(const BuildItem* items, PageArray<Key> keys, std::uint32_t count, const Parallel& parallel)
+        : items_(items), parallel_(parallel), keys_(PageArray<Key>(count)), other_(std::move(keys)) {}
 
-    BuildArray<Key> sort(std::uint32_t count) {
+    PageArray<Key> sort(std::uint32_t count) {
         std::vector<Run> large;
         std::vector<Run> small;
         const auto look_closer = [&](const Run& run) {
             for_equal(run, [&](const Run& part) { (part.count > block_size ? large : small).push_back(part); });
         };
-        radix_sort(other_.get(), keys_.get(), count, parallel_);
+        radix_sort(other_.data(), keys_.data(), count, parallel_);
         look_closer({0, count, 0});
         while (!large.empty()) {
             const Run run = large.back();
@@ -76,7 +76,7 @@ public:
             sort_large(run);
             look_closer(run);
         }
-        other_.reset();
+        other_ = {};
         parallel_.for_blocks(small.size(), 1, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = begin; i < end; ++i) sort_small(small[i]);
         });
@@ -107,13 +107,13 @@ private:
                 other_[i] = {grid.code(Bounds::of(items_[index]).centroid()), index};
             }
         });
-        radix_sort(other_.get() + run.begin, keys_.get() + run.begin, run.count, parallel_);
+        radix_sort(other_.data() + run.begin, keys_.data() + run.begin, run.count, parallel_);
     }
 
     void sort_small(const Run& run) {
         const MortonGrid grid(bounds_of(run));
         if (!grid.divides()) return;
-        Key* const keys = keys_.get() + run.begin;
+        Key* const keys = keys_.data() + run.begin;
         for (std::uint32_t i = 0; i < run.count; ++i)
             keys[i].code = grid.code(Bounds::of(items_[keys[i].index]).centroid());
         std::sort(keys, keys + run.count, [](const Key& a, const Key& b) {
@@ -127,7 +127,7 @@ private:
     template <class Body>
     void for_equal(const Run& run, const Body& body) const {
         if (run.refinements == most_refinements) return;
-        const Key* const keys = keys_.get() + run.begin;
+        const Key* const keys = keys_.data() + run.begin;
         for (std::uint32_t begin = 0, end = 0; begin < run.count; begin = end) {
             while (end < run.count && keys[end].code == keys[begin].code) ++end;
             if (end - begin > longest_run && (run.refinements == 0 || end - begin < run.count)) {
@@ -138,14 +138,14 @@ private:
 
     const BuildItem* const items_;
     const Parallel& parallel_;
-    BuildArray<Key> keys_;
-    BuildArray<Key> other_;
+    PageArray<Key> keys_;
+    PageArray<Key> other_;
 };
 
 } // namespace
 
-BuildArray<MortonKey> morton_order(const BuildItem* items, BuildArray<MortonKey> keys, std::uint32_t count,
-                                   const Parallel& parallel) {
+PageArray<MortonKey> morton_order(const BuildItem* items, PageArray<MortonKey> keys, std::uint32_t count,
+                                  const Parallel& parallel) {
     return MortonSorter(items, std::move(keys), count, parallel).sort(count);
 }
 

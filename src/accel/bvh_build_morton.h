@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accel/bvh_build_bounds.h"
-#include "accel/bvh_build_memory.h"
+#include "base/page_array.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ private:
 // The keys, of all items by one grid, in the order of their codes: neighbours in it are mostly close together. Items that
 // the grid cannot tell apart are put in order on a finer one, as often as it takes, so that the order is as good where all
 // the detail is in a small corner. Items at the same place stay as they were.
-BuildArray<MortonKey> morton_order(const BuildItem* items, BuildArray<MortonKey> keys, std::uint32_t count,
-                                   const Parallel& parallel);
+PageArray<MortonKey> morton_order(const BuildItem* items, PageArray<MortonKey> keys, std::uint32_t count,
+                                  const Parallel& parallel);
 
 } // namespace raywise

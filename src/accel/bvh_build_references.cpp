@@ -42,8 +42,8 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     }
     BuildReferences references;
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
-    references.items = make_build_array<BuildItem>(references.count);
-    references.keys = make_build_array<MortonKey>(references.count);
+    references.items = PageArray<BuildItem>(references.count);
+    references.keys = PageArray<MortonKey>(references.count);
     const BoxF box = round_outwards({primitives.bounds().lower - center, primitives.bounds().upper - center});
     const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f},
                      Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};

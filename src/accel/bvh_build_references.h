@@ -3,8 +3,8 @@
 
 #include "accel/accel.h"
 #include "accel/bvh_build_bounds.h"
-#include "accel/bvh_build_memory.h"
 #include "accel/bvh_build_morton.h"
+#include "base/page_array.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,8 +12,8 @@
 namespace raywise {
 
 struct BuildReferences {
-    BuildArray<BuildItem> items; // id: the primitive; in the order of primitives
-    BuildArray<MortonKey> keys;  // codes by a grid over all, one for each item
+    PageArray<BuildItem> items; // id: the primitive; in the order of primitives
+    PageArray<MortonKey> keys;  // codes by a grid over all, one for each item
     std::uint32_t count = 0;
     Bounds bounds = Bounds::none();
 };

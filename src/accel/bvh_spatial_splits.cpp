@@ -406,7 +406,7 @@ private:
 
 void build_with_spatial_splits(BuildReferences references, const BuildInput& input, const TreeCosts& costs,
                                const std::function<void(std::uint64_t)>& report, BvhTree& tree) {
-    SplitTask root{{references.items.get(), references.items.get() + references.count},
+    SplitTask root{{references.items.data(), references.items.data() + references.count},
                    references.bounds,
                    0,
                    static_cast<std::uint32_t>(split_budget * references.count)};

@@ -6,22 +6,25 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 namespace raywise {
 
 // Aligned to cache lines. Throws std::bad_alloc.
 class PageMemory {
 public:
-    PageMemory() = default;
+    PageMemory() : memory_(nullptr, Release{std::align_val_t{1}}) {}
     explicit PageMemory(std::size_t bytes);
 
     std::byte* data() const { return memory_.get(); }
 
 private:
     struct Release {
+        std::align_val_t alignment;
         void operator()(std::byte* memory) const noexcept;
     };
-    std::unique_ptr<std::byte, Release> memory_;
+    using Memory = std::unique_ptr<std::byte, Release>;
+    Memory memory_;
 };
 
 template <class T>
@@ -32,6 +35,13 @@ public:
     PageArray() = default;
     explicit PageArray(std::size_t size)
         : memory_(size == 0 ? PageMemory() : PageMemory(size * sizeof(T))), size_(size) {}
+
+    PageArray(PageArray&& other) noexcept : memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
+    PageArray& operator=(PageArray&& other) noexcept {
+        memory_ = std::move(other.memory_);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
 
     T* data() { return reinterpret_cast<T*>(memory_.data()); }
     const T* data() const { return reinterpret_cast<const T*>(memory_.data()); }

@@ -44,6 +44,7 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+// At most 22 columns, which is what the table leaves of 100. "above": better above so many.
 std::string remark(const CandidateReport& candidate) {
     if (candidate.forced) return "forced";
     if (candidate.chosen) return "chosen";
@@ -51,8 +52,8 @@ std::string remark(const CandidateReport& candidate) {
     if (candidate.figures.over_limit) return "over the memory limit";
     if (std::isinf(candidate.break_even_rays)) return "never better";
     if (candidate.break_even_rays <= 1.0) return "better at once";
-    if (candidate.break_even_rays >= 1e15) return format("better above %.1e rays", candidate.break_even_rays);
-    return "better above " + grouped(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
+    if (candidate.break_even_rays >= 1e9) return format("above %.1e rays", candidate.break_even_rays);
+    return "above " + grouped(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
 }
 
 } // namespace
@@ -94,13 +95,13 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
                        duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),
                        plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
     }
-    text += format("  %-14s %9s %9s %6s %9s %9s  %9s %9s  %s\n", "structure", "build", "per ray", "+/-", "bytes",
-                   "total", "build*", "per ray*", "");
+    text += format("  %-13s %8s %8s %5s %8s %8s  %8s %8s  %s\n", "structure", "build", "per ray", "+/-", "bytes",
+                   "total", "build*", "per ray*", "better");
     for (const Structure structure : all_structures()) {
         const CandidateReport candidate = report_candidate(plan, tracer, structure);
         const PlannedCandidate& figures = candidate.figures;
         text +=
-            format("%c %-14s %9s %9s %5.0f%% %9s %9s  %9s %9s  ", candidate.chosen ? '>' : ' ', name_of(structure),
+            format("%c %-13s %8s %8s %4.0f%% %8s %8s  %8s %8s  ", candidate.chosen ? '>' : ' ', name_of(structure),
                    duration(figures.predicted.build_ns).c_str(), duration(figures.predicted.ray_ns).c_str(),
                    100.0 * figures.predicted.error,
                    size(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes)

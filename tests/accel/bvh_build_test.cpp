@@ -111,7 +111,7 @@ TEST(BvhBuild, LeavesAreWhatTheCostsSay) {
 TEST(BvhBuild, MortonOrderTellsCloseThingsApart) {
     // A cluster of a millionth of the scene's size has an order as good as that of a scene of its own.
     const std::uint32_t count = 5000;
-    auto items = make_build_array<BuildItem>(count);
+    auto items = PageArray<BuildItem>(count);
     Random random(41);
     for (std::uint32_t i = 0; i < count; ++i) {
         const float scale = i < 10 ? 1.0f : 1e-6f;
@@ -122,9 +122,9 @@ TEST(BvhBuild, MortonOrderTellsCloseThingsApart) {
         items[i].count = 1;
     }
     const MortonGrid grid({Lanes{0, 0, 0, 0}, Lanes{1, 1, 1, 0}});
-    auto keys = make_build_array<MortonKey>(count);
+    auto keys = PageArray<MortonKey>(count);
     for (std::uint32_t i = 0; i < count; ++i) keys[i] = {grid.code(Bounds::of(items[i]).centroid()), i};
-    const auto order = morton_order(items.get(), std::move(keys), count, Parallel(2));
+    const auto order = morton_order(items.data(), std::move(keys), count, Parallel(2));
 
     std::vector<bool> seen(count, false);
     double length = 0.0; // from one item of the small cluster to the next

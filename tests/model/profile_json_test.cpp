@@ -234,7 +234,7 @@ TEST(ProfileJson, DeepNestingIsMalformedAndHarmless) {
 
 TEST(ProfileJson, AMemberGivenTwiceIsMalformed) {
     std::string text = to_json(sample_profile());
-    const std::string member = "\"epoch\": 1,";
+    const std::string member = "\"epoch\": " + std::to_string(calibration_epoch) + ",";
     text.insert(text.find(member), member);
     std::string message;
     EXPECT_EQ(status_of(text, &message), Status::PROFILE_MALFORMED);
