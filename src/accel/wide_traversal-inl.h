@@ -153,7 +153,7 @@ HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
 
     // Each level leaves at most seven behind.
     StackEntry stack[(wide_bvh_width - 1) * bvh_max_depth + wide_bvh_width];
-    StackEntry* top = stack;
+    std::size_t height = 0;
     WideReference current = WideReference::node(0);
     for (;;) {
         if (HWY_LIKELY(!current.is_leaf())) {
@@ -169,7 +169,7 @@ HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
                 // The nearest is next, the others wait, the farthest at the bottom.
                 prefetch(bvh, current);
                 float entry = entries[i];
-                StackEntry* const bottom = top;
+                const std::size_t bottom = height;
                 do {
                     const std::uint32_t k = lowest_bit(bits);
                     bits &= bits - 1;
@@ -180,15 +180,16 @@ HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
                             std::swap(pushed.reference, current);
                             std::swap(pushed.entry, entry);
                         }
-                        StackEntry* place = top;
-                        for (; place > bottom && place[-1].entry < pushed.entry; --place) place[0] = place[-1];
-                        *place = pushed;
+                        std::size_t place = height;
+                        for (; place > bottom && stack[place - 1].entry < pushed.entry; --place)
+                            stack[place] = stack[place - 1];
+                        stack[place] = pushed;
                     } else {
-                        *top = {current, entry};
+                        stack[height] = {current, entry};
                         current = pushed.reference;
                         entry = pushed.entry;
                     }
-                    ++top;
+                    ++height;
                 } while (bits != 0);
                 continue;
             }
@@ -197,10 +198,10 @@ HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
         }
         // What has been pushed may lie beyond a hit found since.
         do {
-            if (top == stack) return false;
-            --top;
-        } while (Sink::in_order && top->entry > sink.last());
-        current = top->reference;
+            if (height == 0) return false;
+            --height;
+        } while (Sink::in_order && stack[height].entry > sink.last());
+        current = stack[height].reference;
     }
 }
 
