@@ -1,6 +1,7 @@
 // Boxes while a hierarchy is built: in float32, four lanes wide.
 #pragma once
 
+#include "accel/bvh_build.h"
 #include "base/lanes.h"
 
 #include <algorithm>
@@ -77,5 +78,17 @@ struct Bounds {
         return x * y + y * z + z * x;
     }
 };
+
+// first and count as in BvhNode.
+inline BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
+    BvhNode node;
+    for (int axis = 0; axis < 3; ++axis) {
+        node.planes[0][axis] = bounds.lower[axis];
+        node.planes[1][axis] = bounds.upper[axis];
+    }
+    node.first = first;
+    node.count = count;
+    return node;
+}
 
 } // namespace raywise

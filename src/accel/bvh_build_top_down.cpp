@@ -23,17 +23,6 @@ constexpr std::uint32_t open_below = 128;
 constexpr int opened_log = Clusters::most_rounds;
 constexpr int max_depth = bvh_max_depth - 1;
 
-BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
-    BvhNode node;
-    for (int axis = 0; axis < 3; ++axis) {
-        node.planes[0][axis] = bounds.lower[axis];
-        node.planes[1][axis] = bounds.upper[axis];
-    }
-    node.first = first;
-    node.count = count;
-    return node;
-}
-
 // The part of the tree that a thread builds alone. Pairs are numbered from 0 until all parts are put together.
 class SubtreeBuilder {
 public:

@@ -24,17 +24,6 @@ constexpr int most_spatial_bins = 16; // half as many for few references
 constexpr std::uint32_t least_job_size = 1024;
 constexpr std::uint32_t jobs_wanted = 64;
 
-BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
-    BvhNode node;
-    for (int axis = 0; axis < 3; ++axis) {
-        node.planes[0][axis] = bounds.lower[axis];
-        node.planes[1][axis] = bounds.upper[axis];
-    }
-    node.first = first;
-    node.count = count;
-    return node;
-}
-
 Bounds bounds_of(const std::vector<BuildItem>& items) {
     Bounds bounds = Bounds::none();
     for (const BuildItem& item : items) bounds.extend(Bounds::of(item));
