@@ -45,7 +45,8 @@ std::int32_t rw_scene_set_expected_rays(rw_scene* scene, const rw_expected_rays*
         if (e.sample != nullptr) {
             const RayArrays rays = read_rays(e.sample, "expected.sample");
             const std::uint64_t count = std::min<std::uint64_t>(rays.count, 1000);
-            for (std::uint64_t i = 0; i < count; ++i) sample.push_back(rays.ray(i));
+            sample.resize(count);
+            rays.read(0, count, sample.data());
         }
         s.set_expected(workload, std::move(sample));
     });

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/ray.h"
+#include "base/scratch.h"
 #include "base/structure.h"
 #include "geometry/primitives.h"
 
@@ -51,6 +52,29 @@ struct SurfaceHit : PrimitiveHit {
     Corners corners;
 };
 
+// Room for the hits of many rays.
+struct SurfaceHits {
+    PrimitiveHit* hits;
+    Corners* corners; // set only where there is a hit
+
+    void put(std::size_t i, const SurfaceHit& hit) const {
+        hits[i] = hit;
+        if (hit.is_hit()) corners[i] = hit.corners;
+    }
+};
+
+// Many rays as the caller gave them, each with what it skips.
+struct UnpreparedRays {
+    const Ray* rays;
+    const SkipList* skips; // null: none skips anything
+    std::size_t count;
+    const Box& bounds; // of the whole scene
+
+    UnpreparedRay operator[](std::size_t i) const {
+        return {rays[i], bounds, skips != nullptr ? skips[i] : SkipList{}};
+    }
+};
+
 // A built structure. Immutable: any number of threads may ask at the same time.
 //
 // The answers are those of the linear scan, bit for bit. A structure only decides which primitives to test, with
@@ -63,22 +87,22 @@ public:
     // The first hit in the order of PrimitiveHit, or no hit.
     virtual SurfaceHit closest(const PreparedRay& ray) const = 0;
     virtual bool any(const PreparedRay& ray) const = 0;
-    // The same for a ray that nobody has prepared; t is scaled in the answer too.
-    virtual SurfaceHit closest(const UnpreparedRay& ray) const { return closest(ray.prepare()); }
-    virtual bool any(const UnpreparedRay& ray) const { return any(ray.prepare()); }
+    // The same for a ray that nobody has prepared; t is scaled in the answer too. One that is not traceable hits nothing.
+    virtual SurfaceHit closest(const UnpreparedRay& ray) const {
+        return PreparedRay::is_traceable(ray.ray) ? closest(ray.prepare()) : SurfaceHit{};
+    }
+    virtual bool any(const UnpreparedRay& ray) const {
+        return PreparedRay::is_traceable(ray.ray) && any(ray.prepare());
+    }
     // Every hit once, appended in any order.
     virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
 
     // How many rays the next two would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
     // that follow near ones.
     virtual std::size_t rays_at_a_time() const { return 1; }
-    // The same for many rays at a time: hits[i] and found[i] are those of rays[i].
-    virtual void closest_many(const PreparedRay* rays, std::size_t count, SurfaceHit* hits) const {
-        for (std::size_t i = 0; i < count; ++i) hits[i] = closest(rays[i]);
-    }
-    virtual void any_many(const PreparedRay* rays, std::size_t count, bool* found) const {
-        for (std::size_t i = 0; i < count; ++i) found[i] = any(rays[i]);
-    }
+    // The same for many rays at a time: answer i is that of rays[i]. scratch: for whatever memory it takes; not reset here.
+    virtual void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const;
+    virtual void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const;
 
     // Memory of the structure.
     virtual std::size_t bytes() const = 0;

@@ -27,6 +27,13 @@ bool Bvh::any(const PreparedRay& ray) const { return any_hit({tree_, primitives_
 SurfaceHit Bvh::closest(const UnpreparedRay& ray) const { return closest_hit({tree_, primitives_}, ray); }
 bool Bvh::any(const UnpreparedRay& ray) const { return any_hit({tree_, primitives_}, ray); }
 
+void Bvh::closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const {
+    closest_hits({tree_, primitives_}, rays, hits, scratch);
+}
+void Bvh::any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const {
+    any_hits({tree_, primitives_}, rays, found, scratch);
+}
+
 void Bvh::all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const {
     all_hits({tree_, primitives_}, ray, hits);
 }

@@ -25,6 +25,7 @@
 #pragma once
 
 #include "accel/scene_frame.h"
+#include "accel/triangle_ray.h"
 #include "base/ray.h"
 
 #include <cmath>
@@ -33,10 +34,10 @@
 
 namespace raywise {
 
-class FrameRay {
+class FrameRay : public TriangleRay {
 public:
     FrameRay(const PreparedRay& ray, const SceneFrame& frame) {
-        begin_at_origin(frame.scale(), 0.0);
+        scale_ = frame.scale();
         Vec3 start = frame.to_frame(ray.origin);
         const double far = max_component(magnitudes(start));
         // Farther away float64 does not tell where the ray meets the scene; nor does infinity.
@@ -97,33 +98,13 @@ public:
     float first;             // the s before which no hit lies
     float last_of_ray;       // last(tmax)
 
-    // For triangles, as the members of PreparedRay; z is the major axis.
-    int x_axis;
-    int y_axis;
-    int z_axis;
-    float origin_x;
-    float origin_y;
-    float origin_z;
-    float shear_x;
-    float shear_y;
-    float inverse_z;
-    float corner_error; // of a sheared coordinate, at most
+private:
+    static constexpr float unbounded = std::numeric_limits<float>::max();
 
-    // For frame_ray-inl.h, which sets the members itself.
-    FrameRay() = default;
-    void begin_at_origin(double scale, double margin) {
-        scale_ = scale;
-        start_ = 0.0;
-        margin_ = margin;
-        misses_ = false;
-    }
     void set_interval(double tmin, double tmax) {
         first = interval_end(tmin, -0.5);
         last_of_ray = interval_end(tmax, 0.5);
     }
-
-private:
-    static constexpr float unbounded = std::numeric_limits<float>::max();
 
     // Towards infinity by half the margin, which is more than the rounding to float32.
     float interval_end(double t, double margins) const {
@@ -153,9 +134,9 @@ private:
     }
 
     double scale_;
-    double start_;
-    double margin_;
-    bool misses_;
+    double start_ = 0.0;
+    double margin_ = 0.0;
+    bool misses_ = false;
 };
 
 } // namespace raywise

@@ -1,6 +1,5 @@
 #include "accel/linear_scan.h"
 
-#include "accel/linear_scan_kernels.h"
 #include "geometry/corner_lines.h"
 
 #include <algorithm>
@@ -11,6 +10,22 @@ namespace {
 
 // Whole blocks; progress is reported after each task.
 constexpr std::uint64_t blocks_per_task = 2048;
+
+// Those of many rays that can hit something, and which they are.
+struct TraceableRays {
+    TraceableRays(const UnpreparedRays& all, Scratch& scratch)
+        : rays(scratch.take<PreparedRay>(all.count)), index(scratch.take<std::size_t>(all.count)) {
+        for (std::size_t i = 0; i < all.count; ++i) {
+            if (!PreparedRay::is_traceable(all.rays[i])) continue;
+            rays[count] = all[i].prepare();
+            index[count++] = i;
+        }
+    }
+
+    PreparedRay* const rays;
+    std::size_t* const index;
+    std::size_t count = 0;
+};
 
 } // namespace
 
@@ -38,37 +53,42 @@ void LinearScan::gather(const BuildInput& input) {
     });
 }
 
+ScannedScene LinearScan::scanned() const {
+    return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()};
+}
+
 SurfaceHit LinearScan::closest(const PreparedRay& ray) const {
     SurfaceHit hit;
-    closest_many(&ray, 1, &hit);
+    if (primitives_.hittable_count() > 0) scan_closest(scanned(), &ray, 1, &hit);
     return hit;
 }
 
 bool LinearScan::any(const PreparedRay& ray) const {
     bool found = false;
-    any_many(&ray, 1, &found);
+    if (primitives_.hittable_count() > 0) scan_any(scanned(), &ray, 1, &found);
     return found;
 }
 
 void LinearScan::all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const {
+    if (primitives_.hittable_count() > 0) scan_all(scanned(), ray, hits);
+}
+
+void LinearScan::closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const {
+    std::fill_n(hits.hits, rays.count, PrimitiveHit{});
     if (primitives_.hittable_count() == 0) return;
-    scan_all({primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}, ray, hits);
+    const TraceableRays traceable(rays, scratch);
+    auto* const found = scratch.take<SurfaceHit>(traceable.count);
+    scan_closest(scanned(), traceable.rays, traceable.count, found);
+    for (std::size_t k = 0; k < traceable.count; ++k) hits.put(traceable.index[k], found[k]);
 }
 
-void LinearScan::closest_many(const PreparedRay* rays, std::size_t count, SurfaceHit* hits) const {
-    if (primitives_.hittable_count() == 0) {
-        std::fill_n(hits, count, SurfaceHit{});
-    } else {
-        scan_closest({primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}, rays, count, hits);
-    }
-}
-
-void LinearScan::any_many(const PreparedRay* rays, std::size_t count, bool* found) const {
-    if (primitives_.hittable_count() == 0) {
-        std::fill_n(found, count, false);
-    } else {
-        scan_any({primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}, rays, count, found);
-    }
+void LinearScan::any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const {
+    std::fill_n(found, rays.count, false);
+    if (primitives_.hittable_count() == 0) return;
+    const TraceableRays traceable(rays, scratch);
+    auto* const answers = scratch.take<bool>(traceable.count);
+    scan_any(scanned(), traceable.rays, traceable.count, answers);
+    for (std::size_t k = 0; k < traceable.count; ++k) found[traceable.index[k]] = answers[k];
 }
 
 } // namespace raywise

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "accel/linear_scan_kernels.h"
 #include "accel/scene_frame.h"
 #include "base/page_array.h"
 
@@ -21,14 +22,15 @@ public:
     bool any(const PreparedRay& ray) const override;
     void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
     std::size_t rays_at_a_time() const override { return 64; } // what they share is paid for with 8 already
-    void closest_many(const PreparedRay* rays, std::size_t count, SurfaceHit* hits) const override;
-    void any_many(const PreparedRay* rays, std::size_t count, bool* found) const override;
+    void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const override;
+    void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + blocks_.bytes(); }
     bool is_gathered() const { return !blocks_.empty(); }
 
 private:
     void gather(const BuildInput& input);
+    ScannedScene scanned() const;
 
     const Primitives& primitives_;
     SceneFrame frame_;

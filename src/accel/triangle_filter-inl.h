@@ -18,7 +18,7 @@
 #define RAYWISE_ACCEL_TRIANGLE_FILTER_INL_H_
 #endif
 
-#include "accel/frame_ray.h"
+#include "accel/triangle_ray.h"
 
 #include <hwy/highway.h>
 
@@ -28,12 +28,12 @@ HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The parts of a FrameRay that triangles need, in all lanes.
+// A TriangleRay in all lanes.
 template <class D>
 struct FilterRay {
     using V = hn::VFromD<D>;
 
-    HWY_INLINE FilterRay(D d, const FrameRay& ray)
+    HWY_INLINE FilterRay(D d, const TriangleRay& ray)
         : origin_x(hn::Set(d, ray.origin_x)),
           origin_y(hn::Set(d, ray.origin_y)),
           origin_z(hn::Set(d, ray.origin_z)),

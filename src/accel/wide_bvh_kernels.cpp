@@ -1,5 +1,7 @@
 #include "accel/wide_bvh_kernels.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 // This file is read once for each target, and the kernels compiled for it.
@@ -8,7 +10,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "accel/frame_ray-inl.h"
+#include "accel/plain_ray-inl.h"
+#include "accel/wide_streams-inl.h"
 #include "accel/wide_traversal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,16 +22,17 @@ namespace {
 class LazyRay {
 public:
     explicit LazyRay(const PreparedRay& ray) : prepared_(&ray) {}
-    explicit LazyRay(const UnpreparedRay& ray) : unprepared_(&ray) {}
+    explicit LazyRay(const UnpreparedRay& ray) : ray_(&ray.ray), bounds_(&ray.bounds), skip_(ray.skip) {}
 
     HWY_INLINE const PreparedRay& prepared() {
-        if (prepared_ == nullptr)
-            prepared_ = &storage_.emplace(unprepared_->ray, unprepared_->bounds, unprepared_->skip);
+        if (prepared_ == nullptr) prepared_ = &storage_.emplace(*ray_, *bounds_, skip_);
         return *prepared_;
     }
 
 private:
-    const UnpreparedRay* unprepared_ = nullptr;
+    const Ray* ray_ = nullptr;
+    const Box* bounds_ = nullptr;
+    SkipList skip_;
     const PreparedRay* prepared_ = nullptr;
     std::optional<PreparedRay> storage_;
 };
@@ -39,8 +43,11 @@ public:
     template <class AnyRay>
     ExactTest(const WideBvhScene& scene, const AnyRay& ray) : scene_(scene), ray_(ray) {}
 
+    HWY_INLINE bool operator()(const BlockTriangle& triangle, const Corners& corners, PrimitiveHit& hit) {
+        return Primitives::test_corners(ray_.prepared(), corners, triangle.primitive(), hit);
+    }
     HWY_INLINE bool operator()(const BlockTriangle& triangle, PrimitiveHit& hit) {
-        return Primitives::test_corners(ray_.prepared(), corners(triangle), triangle.primitive(), hit);
+        return (*this)(triangle, corners(triangle), hit);
     }
     HWY_INLINE Corners corners(const BlockTriangle& triangle) const {
         return scene_.bvh.exact ? triangle.corners(scene_.bvh.frame) : scene_.primitives.corners(triangle.primitive());
@@ -51,37 +58,38 @@ private:
     LazyRay ray_;
 };
 
+// Limits is FrameRay or PlainRayPlace, and `last` what the ray is culled by.
+template <class Limits>
 class ClosestSink {
 public:
     static constexpr bool in_order = true;
 
     template <class AnyRay>
-    ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const FrameRay& frame_ray, SurfaceHit& best)
-        : test_(scene, ray), frame_ray_(frame_ray), best_(best), last_(frame_ray.last_of_ray) {}
+    ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const Limits& limits, float& last, PrimitiveHit& best,
+                Corners& corners)
+        : test_(scene, ray), limits_(limits), last_(last), best_(best), corners_(corners) {}
 
     HWY_INLINE bool test(const BlockTriangle& triangle) {
+        const Corners corners = test_.corners(triangle);
         PrimitiveHit hit;
-        if (test_(triangle, hit) && hit < best_) {
+        if (test_(triangle, corners, hit) && hit < best_) {
             best_.t = hit.t; // member by member: a copy of what was just written would take long
             best_.u = hit.u;
             best_.v = hit.v;
             best_.primitive = hit.primitive;
-            triangle_ = triangle;
-            last_ = frame_ray_.last(hit.t);
+            corners_ = corners;
+            last_ = limits_.last(hit.t);
         }
         return false;
     }
     float last() const { return last_; }
-    void add_corners() {
-        if (best_.is_hit()) best_.corners = test_.corners(triangle_);
-    }
 
 private:
     ExactTest test_;
-    const FrameRay& frame_ray_;
-    SurfaceHit& best_;
-    BlockTriangle triangle_;
-    float last_;
+    const Limits& limits_;
+    float& last_;
+    PrimitiveHit& best_;
+    Corners& corners_;
 };
 
 class AnySink {
@@ -89,17 +97,22 @@ public:
     static constexpr bool in_order = false;
 
     template <class AnyRay>
-    AnySink(const WideBvhScene& scene, const AnyRay& ray, float last) : test_(scene, ray), last_(last) {}
+    AnySink(const WideBvhScene& scene, const AnyRay& ray, float& last, bool& found)
+        : test_(scene, ray), last_(last), found_(found) {}
 
     HWY_INLINE bool test(const BlockTriangle& triangle) {
         PrimitiveHit hit;
-        return test_(triangle, hit);
+        if (!test_(triangle, hit)) return false;
+        found_ = true;
+        last_ = -std::numeric_limits<float>::infinity(); // it enters no box any more
+        return true;
     }
     float last() const { return last_; }
 
 private:
     ExactTest test_;
-    float last_;
+    float& last_;
+    bool& found_;
 };
 
 class AllSink {
@@ -122,40 +135,172 @@ private:
     float last_;
 };
 
-template <class AnyRay>
-HWY_INLINE SurfaceHit closest_of(const WideBvhScene& scene, const AnyRay& ray) {
+SurfaceHit closest_prepared(const WideBvhScene& scene, const PreparedRay& ray) {
     SurfaceHit best;
     if (scene.bvh.nodes.empty()) return best;
-    FrameRay frame_ray;
-    set_frame_ray(ray, scene.bvh.frame, frame_ray);
+    FrameRay frame_ray(ray, scene.bvh.frame);
     if (frame_ray.misses()) return best;
-    ClosestSink sink(scene, ray, frame_ray, best);
-    traverse(scene.bvh, frame_ray, sink);
-    sink.add_corners();
+    ClosestSink<FrameRay> sink(scene, ray, frame_ray, frame_ray.last_of_ray, best, best.corners);
+    traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
     return best;
 }
 
-template <class AnyRay>
-HWY_INLINE bool any_of(const WideBvhScene& scene, const AnyRay& ray) {
-    if (scene.bvh.nodes.empty()) return false;
-    FrameRay frame_ray;
-    set_frame_ray(ray, scene.bvh.frame, frame_ray);
-    if (frame_ray.misses()) return false;
-    AnySink sink(scene, ray, frame_ray.last_of_ray);
-    return traverse(scene.bvh, frame_ray, sink);
+bool any_prepared(const WideBvhScene& scene, const PreparedRay& ray) {
+    bool found = false;
+    if (scene.bvh.nodes.empty()) return found;
+    FrameRay frame_ray(ray, scene.bvh.frame);
+    if (frame_ray.misses()) return found;
+    AnySink sink(scene, ray, frame_ray.last_of_ray, found);
+    traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
+    return found;
 }
 
-SurfaceHit closest_prepared(const WideBvhScene& scene, const PreparedRay& ray) { return closest_of(scene, ray); }
-SurfaceHit closest_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) { return closest_of(scene, ray); }
-bool any_prepared(const WideBvhScene& scene, const PreparedRay& ray) { return any_of(scene, ray); }
-bool any_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) { return any_of(scene, ray); }
+HWY_NOINLINE SurfaceHit closest_odd(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    return PreparedRay::is_traceable(ray.ray) ? closest_prepared(scene, ray.prepare()) : SurfaceHit{};
+}
+HWY_NOINLINE bool any_odd(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    return PreparedRay::is_traceable(ray.ray) && any_prepared(scene, ray.prepare());
+}
+
+SurfaceHit closest_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    SurfaceHit best;
+    if (scene.bvh.nodes.empty()) return best;
+    PlainRay plain;
+    PlainRayPlace place;
+    const PlainRayStatus status = set_plain_ray(ray.ray, scene.bvh.frame, plain, place);
+    if (HWY_UNLIKELY(status == PlainRayStatus::odd)) return closest_odd(scene, ray);
+    if (status == PlainRayStatus::misses) return best;
+    ClosestSink<PlainRayPlace> sink(scene, ray, place, plain.last, best, best.corners);
+    traverse(scene.bvh, plain, WideReference::node(0), sink);
+    return best;
+}
+
+bool any_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) {
+    bool found = false;
+    if (scene.bvh.nodes.empty()) return found;
+    PlainRay plain;
+    PlainRayPlace place;
+    const PlainRayStatus status = set_plain_ray(ray.ray, scene.bvh.frame, plain, place);
+    if (HWY_UNLIKELY(status == PlainRayStatus::odd)) return any_odd(scene, ray);
+    if (status == PlainRayStatus::misses) return found;
+    AnySink sink(scene, ray, plain.last, found);
+    traverse(scene.bvh, plain, WideReference::node(0), sink);
+    return found;
+}
 
 void all_prepared(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
     if (scene.bvh.nodes.empty()) return;
     const FrameRay frame_ray(ray, scene.bvh.frame);
     if (frame_ray.misses()) return;
     AllSink sink(scene, ray, frame_ray.last_of_ray, hits);
-    traverse(scene.bvh, frame_ray, sink);
+    traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
+}
+
+// Many rays made ready for streams: those of one octant after the other.
+class StreamRays {
+public:
+    // on_odd(i): answers a ray that no stream can take.
+    template <class OnOdd>
+    StreamRays(const WideBvhScene& scene, const UnpreparedRays& rays, Scratch& scratch, const OnOdd& on_odd)
+        : plain_(scratch.take<PlainRay>(rays.count)),
+          places_(scratch.take<PlainRayPlace>(rays.count)),
+          numbers_(scratch.take<std::uint32_t>(rays.count)) {
+        auto* const plain_numbers = scratch.take<std::uint32_t>(rays.count);
+        std::uint32_t plain_count = 0;
+        std::uint32_t counts[octant_count] = {};
+        for (std::uint32_t i = 0; i < rays.count; ++i) {
+            const PlainRayStatus status = set_plain_ray(rays.rays[i], scene.bvh.frame, plain_[i], places_[i]);
+            if (HWY_LIKELY(status == PlainRayStatus::plain)) {
+                plain_numbers[plain_count++] = i;
+                ++counts[plain_[i].octant];
+            } else if (status == PlainRayStatus::odd) {
+                on_odd(i);
+            }
+        }
+        for (std::size_t octant = 0; octant < octant_count; ++octant)
+            begin_[octant + 1] = begin_[octant] + counts[octant];
+        std::uint32_t next[octant_count];
+        std::copy_n(begin_, octant_count, next);
+        for (std::uint32_t k = 0; k < plain_count; ++k) {
+            const std::uint32_t i = plain_numbers[k];
+            numbers_[next[plain_[i].octant]++] = i;
+        }
+    }
+
+    PlainRay& plain(std::size_t i) { return plain_[i]; }
+    const PlainRayPlace& place(std::size_t i) const { return places_[i]; }
+
+    template <class Sink>
+    void trace(const WideBvh& bvh, Sink& sink, Scratch& scratch) const {
+        std::uint32_t most = 0;
+        for (std::size_t octant = 0; octant < octant_count; ++octant) most = std::max(most, count(octant));
+        if (most == 0) return;
+        Stream<Sink> stream(bvh, plain_, most, sink, scratch);
+        for (std::uint32_t octant = 0; octant < octant_count; ++octant) {
+            if (count(octant) > 0) stream.run(numbers_ + begin_[octant], count(octant), octant);
+        }
+    }
+
+private:
+    static constexpr std::size_t octant_count = 8;
+
+    std::uint32_t count(std::size_t octant) const { return begin_[octant + 1] - begin_[octant]; }
+
+    PlainRay* const plain_;
+    PlainRayPlace* const places_;
+    std::uint32_t* const numbers_;
+    std::uint32_t begin_[octant_count + 1] = {};
+};
+
+struct ClosestOfMany {
+    static constexpr bool in_order = true;
+
+    const WideBvhScene& scene;
+    const UnpreparedRays& rays;
+    StreamRays& stream_rays;
+    const SurfaceHits& hits;
+
+    bool is_done(std::size_t) const { return false; }
+    ClosestSink<PlainRayPlace> of_ray(std::size_t i) {
+        return {scene, rays[i], stream_rays.place(i), stream_rays.plain(i).last, hits.hits[i], hits.corners[i]};
+    }
+};
+
+struct AnyOfMany {
+    static constexpr bool in_order = false;
+
+    const WideBvhScene& scene;
+    const UnpreparedRays& rays;
+    StreamRays& stream_rays;
+    bool* found;
+
+    bool is_done(std::size_t i) const { return found[i]; }
+    AnySink of_ray(std::size_t i) { return {scene, rays[i], stream_rays.plain(i).last, found[i]}; }
+};
+
+// A stream of fewer is not worth what it takes to make it ready.
+constexpr std::size_t smallest_stream = 32;
+
+void closest_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) {
+    if (rays.count < smallest_stream || scene.bvh.nodes.empty()) {
+        for (std::size_t i = 0; i < rays.count; ++i) hits.put(i, closest_unprepared(scene, rays[i]));
+        return;
+    }
+    std::fill_n(hits.hits, rays.count, PrimitiveHit{});
+    StreamRays stream_rays(scene, rays, scratch, [&](std::size_t i) { hits.put(i, closest_odd(scene, rays[i])); });
+    ClosestOfMany sink{scene, rays, stream_rays, hits};
+    stream_rays.trace(scene.bvh, sink, scratch);
+}
+
+void any_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch) {
+    if (rays.count < smallest_stream || scene.bvh.nodes.empty()) {
+        for (std::size_t i = 0; i < rays.count; ++i) found[i] = any_unprepared(scene, rays[i]);
+        return;
+    }
+    std::fill_n(found, rays.count, false);
+    StreamRays stream_rays(scene, rays, scratch, [&](std::size_t i) { found[i] = any_odd(scene, rays[i]); });
+    AnyOfMany sink{scene, rays, stream_rays, found};
+    stream_rays.trace(scene.bvh, sink, scratch);
 }
 
 } // namespace
@@ -167,8 +312,10 @@ namespace raywise {
 
 HWY_EXPORT(closest_prepared);
 HWY_EXPORT(closest_unprepared);
+HWY_EXPORT(closest_of_many);
 HWY_EXPORT(any_prepared);
 HWY_EXPORT(any_unprepared);
+HWY_EXPORT(any_of_many);
 HWY_EXPORT(all_prepared);
 
 SurfaceHit closest_hit(const WideBvhScene& scene, const PreparedRay& ray) {
@@ -177,11 +324,17 @@ SurfaceHit closest_hit(const WideBvhScene& scene, const PreparedRay& ray) {
 SurfaceHit closest_hit(const WideBvhScene& scene, const UnpreparedRay& ray) {
     return HWY_DYNAMIC_DISPATCH(closest_unprepared)(scene, ray);
 }
+void closest_hits(const WideBvhScene& scene, const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(closest_of_many)(scene, rays, hits, scratch);
+}
 bool any_hit(const WideBvhScene& scene, const PreparedRay& ray) {
     return HWY_DYNAMIC_DISPATCH(any_prepared)(scene, ray);
 }
 bool any_hit(const WideBvhScene& scene, const UnpreparedRay& ray) {
     return HWY_DYNAMIC_DISPATCH(any_unprepared)(scene, ray);
+}
+void any_hits(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(any_of_many)(scene, rays, found, scratch);
 }
 void all_hits(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
     HWY_DYNAMIC_DISPATCH(all_prepared)(scene, ray, hits);

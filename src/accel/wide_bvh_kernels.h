@@ -15,11 +15,13 @@ struct WideBvhScene {
     const Primitives& primitives; // that it was built from
 };
 
-// The first hit in the order of PrimitiveHit, or no hit.
+// As the functions of Accel.
 SurfaceHit closest_hit(const WideBvhScene& scene, const PreparedRay& ray);
 SurfaceHit closest_hit(const WideBvhScene& scene, const UnpreparedRay& ray);
+void closest_hits(const WideBvhScene& scene, const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch);
 bool any_hit(const WideBvhScene& scene, const PreparedRay& ray);
 bool any_hit(const WideBvhScene& scene, const UnpreparedRay& ray);
+void any_hits(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch);
 // Appends every hit; one on a primitive with several references once for each.
 void all_hits(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits);
 

@@ -6,6 +6,8 @@
 #define RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
 #endif
 
+#include "accel/frame_ray.h"
+#include "accel/plain_ray.h"
 #include "accel/triangle_filter-inl.h"
 #include "accel/wide_bvh_kernels.h"
 
@@ -33,16 +35,22 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
 
 HWY_INLINE std::uint32_t lowest_bit(std::uint32_t bits) { return static_cast<std::uint32_t>(__builtin_ctz(bits)); }
 
+// See PlainRay.
+template <class D, class V = hn::VFromD<D>>
+HWY_INLINE V plain_exit_offset(D d, V inverse, V entry_offset) {
+    return hn::NegMulAdd(hn::Set(d, PlainRay::exit_per_inverse), hn::Abs(inverse),
+                         hn::Sub(entry_offset, hn::Set(d, PlainRay::exit_constant)));
+}
+
 // The boxes of a node against a ray.
 class BoxTest {
 public:
-    HWY_INLINE explicit BoxTest(const FrameRay& ray) : first_(hn::Set(Lanes(), ray.first)) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            inverse_[axis] = hn::Set(Lanes(), ray.inverse[axis]);
-            entry_offset_[axis] = hn::Set(Lanes(), ray.entry_offset[axis]);
-            exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
-            entry_line_[axis] = (2 * axis + ((ray.backwards >> axis) & 1u)) * line;
-        }
+    HWY_INLINE explicit BoxTest(const FrameRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.backwards) {
+        for (std::size_t axis = 0; axis < 3; ++axis) exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
+    }
+    HWY_INLINE explicit BoxTest(const PlainRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.octant) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            exit_offset_[axis] = plain_exit_offset(Lanes(), inverse_[axis], entry_offset_[axis]);
     }
 
     // Which children may hold a hit up to `last`, as bits; where the ray enters each goes to `entries`.
@@ -66,6 +74,15 @@ public:
     }
 
 private:
+    HWY_INLINE BoxTest(const float* inverse, const float* entry_offset, float first, std::uint32_t octant)
+        : first_(hn::Set(Lanes(), first)) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            inverse_[axis] = hn::Set(Lanes(), inverse[axis]);
+            entry_offset_[axis] = hn::Set(Lanes(), entry_offset[axis]);
+            entry_line_[axis] = (2 * axis + ((octant >> axis) & 1u)) * line;
+        }
+    }
+
     static constexpr std::size_t line = wide_bvh_width * sizeof(float);
 
     static HWY_INLINE Vector load(const char* planes, std::size_t lane) {
@@ -82,9 +99,9 @@ private:
 // The triangles of a block against a ray.
 class BlockTest {
 public:
-    HWY_INLINE explicit BlockTest(const FrameRay& ray)
+    HWY_INLINE BlockTest(const TriangleRay& ray, float first)
         : filter_(Lanes(), ray),
-          first_(hn::Set(Lanes(), ray.first)),
+          first_(hn::Set(Lanes(), first)),
           axes_{static_cast<std::size_t>(ray.x_axis), static_cast<std::size_t>(ray.y_axis),
                 static_cast<std::size_t>(ray.z_axis)} {}
 
@@ -130,11 +147,14 @@ HWY_INLINE void prefetch(const WideBvh& bvh, WideReference reference) {
         __builtin_prefetch(static_cast<const char*>(target) + line);
 }
 
+HWY_INLINE const TriangleRay& for_triangles(const FrameRay& ray) { return ray; }
+HWY_INLINE TriangleRay for_triangles(const PlainRay& ray) { return ray.for_triangles(); }
+
 // Calls sink.test for the triangles of a leaf that the ray may hit. Returns whether one of the calls did. A function of its own, so
 // that what a ray needs for triangles does not take registers from what it needs for boxes.
-template <class Sink>
-HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const FrameRay& ray, WideReference leaf, Sink& sink) {
-    const BlockTest block_test(ray);
+template <class CullRay, class Sink>
+HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const CullRay& ray, WideReference leaf, Sink& sink) {
+    const BlockTest block_test(for_triangles(ray), ray.first);
     const std::uint32_t triangles = leaf.triangles();
     for (std::uint32_t begin = 0; begin < triangles; begin += block_size) {
         const std::uint32_t n = triangles - begin < block_size ? triangles - begin : block_size;
@@ -146,15 +166,14 @@ HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const FrameRay& ray, WideRefere
     return false;
 }
 
-// Calls sink.test for what the ray may hit up to sink.last(), until it returns true. Returns whether it did. There has to be a node.
-template <class Sink>
-HWY_INLINE bool traverse(const WideBvh& bvh, const FrameRay& ray, Sink& sink) {
+// Calls sink.test for what the ray may hit at or below `current` up to sink.last(), until it returns true. Returns whether it did.
+template <class CullRay, class Sink>
+HWY_INLINE bool traverse(const WideBvh& bvh, const CullRay& ray, WideReference current, Sink& sink) {
     const BoxTest box_test(ray);
 
     // Each level leaves at most seven behind.
     StackEntry stack[(wide_bvh_width - 1) * bvh_max_depth + wide_bvh_width];
     std::size_t height = 0;
-    WideReference current = WideReference::node(0);
     for (;;) {
         if (HWY_LIKELY(!current.is_leaf())) {
             const WideNode& node = bvh.nodes[current.index()];

@@ -1,13 +1,11 @@
 #include "batch/batch.h"
 
+#include "base/scratch.h"
 #include "batch/ray_order.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstring>
-#include <limits>
-#include <memory>
 #include <vector>
 
 namespace raywise {
@@ -16,24 +14,40 @@ namespace {
 // Rays handed to a thread at once. Fewer than this are answered on the caller's thread: waking another costs more.
 constexpr std::uint64_t rays_per_task = 256;
 
-// Rays put in order together: many more, and each part of the scene would be come to once; many fewer, and their keys stay in the
-// caches.
-constexpr std::uint64_t rays_per_order = 8192;
+// Rays put in order together, where the structure takes one at a time: many more, and each part of the scene would be come to once;
+// many fewer, and their keys stay in the caches.
+constexpr std::size_t rays_per_order = 8192;
 
-template <class T>
-void store(std::byte* address, T value) {
-    std::memcpy(address, &value, sizeof value); // the caller's arrays need not be aligned
-}
+// Rays read from the caller's arrays.
+struct RayBlock {
+    std::uint64_t first = 0; // the number of its first ray in the batch
+    std::size_t size = 0;
+    Ray* rays = nullptr;
+    SkipBlock skips;
+    Scratch scratch; // for whatever the block takes
+};
 
-// Calls body(begin, end) for all rays, on several threads, each returning how many of its rays held a NaN. Returns the sum, and notes the
-// time.
+bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() > 1; }
+
+// Calls body(block) for all rays, on several threads. Returns how many of the rays held a NaN, and notes the time.
 template <class Body>
-std::uint64_t for_rays(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
+std::uint64_t for_blocks(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
+    const std::size_t most = takes_many(tracer) ? tracer.accel().rays_at_a_time() : rays_per_order;
     std::atomic<std::uint64_t> invalid{0};
     parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
-        invalid.fetch_add(body(begin, end), std::memory_order_relaxed);
+        RayBlock block;
+        std::uint64_t of_task = 0;
+        for (block.first = begin; block.first < end; block.first += most) {
+            block.scratch.reset();
+            block.size = std::min<std::uint64_t>(most, end - block.first);
+            block.rays = block.scratch.take<Ray>(block.size);
+            of_task += rays.read(block.first, block.size, block.rays);
+            block.skips.read(rays.skip, block.first, block.size, tracer.primitives());
+            body(block);
+        }
+        invalid.fetch_add(of_task, std::memory_order_relaxed);
     });
     const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     tracer.usage().rays.fetch_add(rays.count, std::memory_order_relaxed);
@@ -41,153 +55,88 @@ std::uint64_t for_rays(const Tracer& tracer, const RayArrays& rays, const Parall
     return invalid.load();
 }
 
-// Reads rays first ... first + block.size() - 1.
-std::uint64_t read_block(const RayArrays& rays, std::uint64_t first, std::vector<Ray>& block) {
-    std::uint64_t invalid = 0;
-    for (std::size_t k = 0; k < block.size(); ++k) {
-        block[k] = rays.ray(first + k);
-        invalid += block[k].has_nan() ? 1 : 0;
+// answer(k, ray, skip) for each ray: near ones one after the other.
+template <class Answer>
+void for_each_in_order(const Tracer& tracer, const RayBlock& block, const Answer& answer) {
+    RayOrder order(tracer.primitives().bounds());
+    const std::vector<std::uint32_t>& sorted = order.sort(block.rays, block.size);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        __builtin_prefetch(&block.rays[sorted[std::min(i + 4, sorted.size() - 1)]]);
+        const std::uint32_t k = sorted[i];
+        answer(k, block.rays[k], block.skips[k]);
     }
+}
+
+// A structure that takes many rays at a time does not look for those with a NaN.
+std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
+    if (takes_many(tracer)) tracer.usage().invalid_rays.fetch_add(invalid, std::memory_order_relaxed);
     return invalid;
 }
 
-// answer(i, ray, skip) for each ray: near ones one after the other.
-template <class Answer>
-std::uint64_t for_each_ray(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel,
-                           const Answer& answer) {
-    return for_rays(tracer, rays, parallel, [&](std::uint64_t begin, std::uint64_t end) {
-        RayOrder order(tracer.primitives().bounds());
-        std::vector<Ray> block;
-        std::vector<std::uint32_t> skipped;
-        std::uint64_t invalid = 0;
-        for (std::uint64_t first = begin; first < end; first += rays_per_order) {
-            block.resize(std::min(rays_per_order, end - first));
-            invalid += read_block(rays, first, block);
-            const std::vector<std::uint32_t>& sorted = order.sort(block);
-            for (std::size_t i = 0; i < sorted.size(); ++i) {
-                __builtin_prefetch(&block[sorted[std::min(i + 4, sorted.size() - 1)]]);
-                const std::uint32_t k = sorted[i];
-                answer(first + k, block[k], rays.skip.of_ray(first + k, tracer.primitives(), skipped));
-            }
+void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& found, const HitArrays& hits) {
+    constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
+    Hit as_asked[together];
+    for (std::size_t begin = 0; begin < block.size; begin += together) {
+        const std::size_t n = std::min(together, block.size - begin);
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t i = begin + k;
+            as_asked[k] = tracer.to_caller(block.rays[i], found.hits[i], found.corners[i]);
         }
-        return invalid;
-    });
-}
-
-// answer(first, rays, skips, count) for as many rays at a time as the structure asks for.
-template <class Answer>
-std::uint64_t for_each_group(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel,
-                             const Answer& answer) {
-    const std::size_t size = tracer.accel().rays_at_a_time();
-    return for_rays(tracer, rays, parallel, [&](std::uint64_t begin, std::uint64_t end) {
-        std::vector<Ray> block;
-        std::vector<std::vector<std::uint32_t>> skipped(size);
-        std::vector<SkipList> skips(size);
-        std::uint64_t invalid = 0;
-        for (std::uint64_t first = begin; first < end; first += size) {
-            block.resize(std::min<std::uint64_t>(size, end - first));
-            invalid += read_block(rays, first, block);
-            for (std::size_t k = 0; k < block.size(); ++k)
-                skips[k] = rays.skip.of_ray(first + k, tracer.primitives(), skipped[k]);
-            answer(first, block.data(), skips.data(), block.size());
-        }
-        return invalid;
-    });
+        hits.write(block.first + begin, n, as_asked);
+    }
 }
 
 } // namespace
 
-Ray RayArrays::ray(std::uint64_t i) const {
-    Ray ray;
-    ray.origin = origin.vec3(i);
-    ray.direction = direction.vec3(i);
-    if (tmin.data != nullptr) ray.tmin = tmin.number(i);
-    if (tmax.data != nullptr) ray.tmax = tmax.number(i);
-    return ray;
-}
-
-void OutputArray::put_number(std::uint64_t element, int component, double value) const {
-    std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
-    if (scalar == Scalar::float32) {
-        store(address, static_cast<float>(value));
-    } else {
-        store(address, value);
-    }
-}
-
-void OutputArray::put_integer(std::uint64_t element, std::uint64_t value) const {
-    std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
-    if (scalar == Scalar::uint8) {
-        store(address, static_cast<std::uint8_t>(value));
-    } else if (scalar == Scalar::uint32) {
-        store(address, static_cast<std::uint32_t>(value));
-    } else {
-        store(address, value);
-    }
-}
-
-void OutputArray::put_id(std::uint64_t element, std::uint32_t id) const {
-    put_integer(element, id == invalid_id ? std::numeric_limits<std::uint64_t>::max() : id);
-}
-
-void HitArrays::put(std::uint64_t element, const Hit& hit) const {
-    if (t.wanted()) t.put_number(element, 0, hit.t);
-    if (uv.wanted()) {
-        uv.put_number(element, 0, hit.u);
-        uv.put_number(element, 1, hit.v);
-    }
-    if (normal.wanted()) {
-        for (int axis = 0; axis < 3; ++axis) normal.put_number(element, axis, hit.normal[axis]);
-    }
-    if (instance.wanted()) instance.put_id(element, hit.instance);
-    if (geometry.wanted()) geometry.put_id(element, hit.geometry);
-    if (primitive.wanted()) primitive.put_id(element, hit.primitive);
-}
-
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel) {
-    if (tracer.accel().rays_at_a_time() == 1) {
-        return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
-            hits.put(i, tracer.closest(ray, skip));
-        });
-    }
-    return for_each_group(tracer, rays, parallel,
-                          [&](std::uint64_t first, const Ray* group, const SkipList* skips, std::size_t count) {
-                              std::vector<Hit> found(count);
-                              tracer.closest_many(group, skips, count, found.data());
-                              for (std::size_t k = 0; k < count; ++k) hits.put(first + k, found[k]);
-                          });
+    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
+        if (takes_many(tracer)) {
+            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size), block.scratch.take<Corners>(block.size)};
+            tracer.accel().closest_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()}, found,
+                                        block.scratch);
+            write_hits(tracer, block, found, hits);
+        } else {
+            Hit* const found = block.scratch.take<Hit>(block.size);
+            for_each_in_order(tracer, block, [&](std::size_t k, const Ray& ray, SkipList skip) {
+                found[k] = tracer.closest(ray, skip);
+            });
+            hits.write(block.first, block.size, found);
+        }
+    });
+    return count_invalid(tracer, invalid);
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel) {
-    if (tracer.accel().rays_at_a_time() == 1) {
-        return for_each_ray(tracer, rays, parallel, [&](std::uint64_t i, const Ray& ray, SkipList skip) {
-            occluded.put_integer(i, tracer.any(ray, skip) ? 1 : 0);
-        });
-    }
-    return for_each_group(tracer, rays, parallel,
-                          [&](std::uint64_t first, const Ray* group, const SkipList* skips, std::size_t count) {
-                              const auto found = std::make_unique<bool[]>(count);
-                              tracer.any_many(group, skips, count, found.get());
-                              for (std::size_t k = 0; k < count; ++k) occluded.put_integer(first + k, found[k] ? 1 : 0);
-                          });
+    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
+        bool* const found = block.scratch.take<bool>(block.size);
+        if (takes_many(tracer)) {
+            tracer.accel().any_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()}, found,
+                                    block.scratch);
+        } else {
+            for_each_in_order(tracer, block,
+                              [&](std::size_t k, const Ray& ray, SkipList skip) { found[k] = tracer.any(ray, skip); });
+        }
+        occluded.write(block.first, block.size, found);
+    });
+    return count_invalid(tracer, invalid);
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
                                   const Parallel& parallel) {
     std::vector<std::vector<Hit>> found(rays.count);
-    const std::uint64_t invalid =
-        for_each_ray(tracer, rays, parallel,
-                     [&](std::uint64_t i, const Ray& ray, SkipList skip) { tracer.all(ray, found[i], skip); });
+    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
+        for_each_in_order(tracer, block, [&](std::size_t k, const Ray& ray, SkipList skip) {
+            tracer.all(ray, found[block.first + k], skip);
+        });
+    });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
         parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
-            for (std::uint64_t i = begin; i < end; ++i) {
-                for (std::size_t k = 0; k < found[i].size(); ++k) hits.put(first[i] + k, found[i][k]);
-            }
+            for (std::uint64_t i = begin; i < end; ++i) hits.write(first[i], found[i].size(), found[i].data());
         });
     }
     // Last, so that an error before leaves the caller's offsets alone.

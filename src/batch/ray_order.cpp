@@ -74,16 +74,16 @@ void RayOrder::sort_by_digit(int shift, const std::vector<Entry>& from, std::vec
     for (const Entry& entry : from) to[next[entry.key >> shift & (digits - 1)]++] = entry;
 }
 
-const std::vector<std::uint32_t>& RayOrder::sort(const std::vector<Ray>& rays) {
-    entries_.resize(rays.size());
-    scratch_.resize(rays.size());
-    order_.resize(rays.size());
-    for (std::uint32_t i = 0; i < rays.size(); ++i) entries_[i] = {key_of(rays[i]), i};
+const std::vector<std::uint32_t>& RayOrder::sort(const Ray* rays, std::size_t count) {
+    entries_.resize(count);
+    scratch_.resize(count);
+    order_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) entries_[i] = {key_of(rays[i]), i};
     if (!is_in_order_already()) {
         sort_by_digit(0, entries_, scratch_);
         sort_by_digit(digit_bits, scratch_, entries_);
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) order_[i] = entries_[i].ray;
+    for (std::size_t i = 0; i < count; ++i) order_[i] = entries_[i].ray;
     return order_;
 }
 

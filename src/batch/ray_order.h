@@ -5,6 +5,7 @@
 #include "base/box.h"
 #include "base/ray.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,9 +16,9 @@ public:
     // bounds: of the scene.
     explicit RayOrder(const Box& bounds);
 
-    // Puts the numbers 0 ... rays.size() - 1 in that order, in memory that lasts until the next call. Rays that come in such an order
+    // Puts the numbers 0 ... count - 1 in that order, in memory that lasts until the next call. Rays that come in such an order
     // already, as those of a camera do, stay in it.
-    const std::vector<std::uint32_t>& sort(const std::vector<Ray>& rays);
+    const std::vector<std::uint32_t>& sort(const Ray* rays, std::size_t count);
 
 private:
     // From the least significant bits: where the ray points within its octant, the cell in which it enters the scene (interleaved, so

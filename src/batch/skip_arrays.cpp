@@ -44,15 +44,28 @@ void SkipArrays::check(std::uint64_t rays, const Primitives& primitives) const {
     }
 }
 
-SkipList SkipArrays::of_ray(std::uint64_t i, const Primitives& primitives, std::vector<std::uint32_t>& numbers) const {
-    if (!wanted()) return {};
-    numbers.clear();
-    const Range entries = range(i);
-    for (std::uint64_t k = entries.begin; k < entries.end; ++k) {
-        const SkipEntry e = entry(k);
-        if (!e.stands_for_nothing()) numbers.push_back(e.number(primitives, "rays.skip_primitive", k));
+void SkipBlock::read(const SkipArrays& arrays, std::uint64_t first, std::size_t count, const Primitives& primitives) {
+    numbers_.clear();
+    lists_.clear();
+    if (!arrays.wanted()) return;
+    std::vector<std::size_t> ends;
+    ends.reserve(count);
+    for (std::uint64_t i = first; i < first + count; ++i) {
+        const SkipArrays::Range entries = arrays.range(i);
+        const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
+        for (std::uint64_t k = entries.begin; k < entries.end; ++k) {
+            const SkipEntry e = arrays.entry(k);
+            if (!e.stands_for_nothing()) numbers_.push_back(e.number(primitives, "rays.skip_primitive", k));
+        }
+        std::sort(numbers_.begin() + begin, numbers_.end());
+        ends.push_back(numbers_.size());
     }
-    return sorted(numbers);
+    lists_.reserve(count);
+    const std::uint32_t* begin = numbers_.data();
+    for (const std::size_t end : ends) {
+        lists_.push_back({begin, numbers_.data() + end});
+        begin = numbers_.data() + end;
+    }
 }
 
 SkipList sorted(std::vector<std::uint32_t>& numbers) {

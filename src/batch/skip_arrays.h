@@ -32,16 +32,28 @@ struct SkipArrays {
     // Looks at every offset and id. Throws Error with ERROR_INVALID_ARGUMENT or ERROR_INDEX_OUT_OF_RANGE, naming the element.
     void check(std::uint64_t rays, const Primitives& primitives) const;
 
-    // What ray i skips, in the memory of `numbers`. Needs arrays that were checked.
-    SkipList of_ray(std::uint64_t i, const Primitives& primitives, std::vector<std::uint32_t>& numbers) const;
-
 private:
+    friend class SkipBlock;
     struct Range {
         std::uint64_t begin;
         std::uint64_t end;
     };
     Range range(std::uint64_t ray) const;
     SkipEntry entry(std::uint64_t k) const { return {geometry.data ? geometry.index(k) : 0, primitive.index(k)}; }
+};
+
+// What each of some rays skips, as numbers of primitives.
+class SkipBlock {
+public:
+    // Rays first ... first + count - 1, of arrays that were checked.
+    void read(const SkipArrays& arrays, std::uint64_t first, std::size_t count, const Primitives& primitives);
+
+    const SkipList* data() const { return lists_.empty() ? nullptr : lists_.data(); } // null: none skips anything
+    SkipList operator[](std::size_t ray) const { return lists_.empty() ? SkipList{} : lists_[ray]; }
+
+private:
+    std::vector<std::uint32_t> numbers_;
+    std::vector<SkipList> lists_;
 };
 
 // Sorted, and seen as a list.

@@ -41,9 +41,6 @@ public:
     // skip: numbers of this scene's primitives.
     Hit closest(const Ray& ray, SkipList skip = {}) const;
     bool any(const Ray& ray, SkipList skip = {}) const;
-    // The same for `count` rays, each with its skip list.
-    void closest_many(const Ray* rays, const SkipList* skips, std::size_t count, Hit* hits) const;
-    void any_many(const Ray* rays, const SkipList* skips, std::size_t count, bool* found) const;
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
     void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
 
@@ -53,15 +50,11 @@ public:
     const std::shared_ptr<const Accel>& shared_accel() const { return accel_; }
     Usage& usage() const { return *usage_; }
 
+    // What a structure answers to a ray, as the caller sees it. corners: needed for a hit only.
+    Hit to_caller(const Ray& ray, const PrimitiveHit& hit, const Corners& corners) const;
+
 private:
-    // Those of many rays that can hit something.
-    struct Traceable {
-        std::vector<PreparedRay> rays;
-        std::vector<std::size_t> index;
-    };
-    Traceable traceable(const Ray* rays, const SkipList* skips, std::size_t count) const;
-    bool is_traceable(const Ray& ray) const;
-    Hit to_caller(const RayUnit& unit, const PrimitiveHit& hit, const Corners& corners) const;
+    void count_invalid(const Ray& ray) const;
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;

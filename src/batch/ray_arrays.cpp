@@ -1,0 +1,70 @@
+#include "batch/ray_arrays.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace raywise {
+namespace {
+
+template <class Number>
+double load(const std::byte* address) {
+    Number value;
+    std::memcpy(&value, address, sizeof value); // the caller's arrays need not be aligned
+    return static_cast<double>(value);
+}
+
+// For each array once, not for each of its numbers: of which kind they are.
+template <class Body>
+void for_kind(Scalar scalar, const Body& body) {
+    if (scalar == Scalar::float32) {
+        body(float{});
+    } else {
+        body(double{});
+    }
+}
+
+void read_vectors(const StridedArray& array, std::uint64_t first, std::size_t n, Vec3 Ray::*member, Ray* rays) {
+    for_kind(array.scalar, [&](auto number) {
+        using Number = decltype(number);
+        const std::byte* address = array.data + static_cast<std::ptrdiff_t>(first) * array.stride;
+        const std::ptrdiff_t step = array.component_stride;
+        for (std::size_t k = 0; k < n; ++k, address += array.stride)
+            rays[k].*member = {load<Number>(address), load<Number>(address + step), load<Number>(address + 2 * step)};
+    });
+}
+
+void read_numbers(const StridedArray& array, std::uint64_t first, std::size_t n, double absent, double Ray::*member,
+                  Ray* rays) {
+    if (array.data == nullptr) {
+        for (std::size_t k = 0; k < n; ++k) rays[k].*member = absent;
+        return;
+    }
+    for_kind(array.scalar, [&](auto number) {
+        using Number = decltype(number);
+        const std::byte* address = array.data + static_cast<std::ptrdiff_t>(first) * array.stride;
+        for (std::size_t k = 0; k < n; ++k, address += array.stride) rays[k].*member = load<Number>(address);
+    });
+}
+
+// A NaN makes the sum one; so may infinities, and the interval often ends at one.
+bool may_have_nan(const Ray& ray) {
+    const Vec3 sum = ray.origin + ray.direction;
+    return std::isnan(sum.x + sum.y + sum.z) || std::isnan(ray.tmin) || std::isnan(ray.tmax);
+}
+
+} // namespace
+
+std::uint64_t RayArrays::read(std::uint64_t first, std::size_t n, Ray* rays) const {
+    read_vectors(origin, first, n, &Ray::origin, rays);
+    read_vectors(direction, first, n, &Ray::direction, rays);
+    read_numbers(tmin, first, n, 0.0, &Ray::tmin, rays);
+    read_numbers(tmax, first, n, std::numeric_limits<double>::infinity(), &Ray::tmax, rays);
+    std::uint64_t invalid = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (may_have_nan(rays[k])) invalid += rays[k].has_nan() ? 1 : 0;
+    }
+    return invalid;
+}
+
+} // namespace raywise

@@ -1,0 +1,25 @@
+// The rays of a batch, in the caller's arrays.
+#pragma once
+
+#include "base/ray.h"
+#include "batch/skip_arrays.h"
+#include "geometry/triangle_mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace raywise {
+
+struct RayArrays {
+    std::uint64_t count = 0;
+    StridedArray origin;
+    StridedArray direction;
+    StridedArray tmin; // data null: 0
+    StridedArray tmax; // data null: infinity
+    SkipArrays skip;
+
+    // Rays first ... first + n - 1 to `rays`. Returns how many of them hold a NaN.
+    std::uint64_t read(std::uint64_t first, std::size_t n, Ray* rays) const;
+};
+
+} // namespace raywise
