@@ -27,14 +27,14 @@ Error over_capacity(std::uint64_t needed, std::uint64_t capacity) {
 } // namespace
 
 void intersect_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hit) {
-    const Ray r = read_ray(ray);
+    const Ray& r = read_ray(ray);
     rw_hit& out = required(hit, "hit");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     write_hit(tracer.closest(r, sorted(skips)), out);
 }
 
 void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer) {
-    const Ray r = read_ray(ray);
+    const Ray& r = read_ray(ray);
     std::int32_t& out = required(answer, "occluded");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     out = tracer.any(r, sorted(skips)) ? 1 : 0;
@@ -42,7 +42,7 @@ void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options
 
 void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hits,
                         std::uint64_t capacity, std::uint64_t* needed) {
-    const Ray r = read_ray(ray);
+    const Ray& r = read_ray(ray);
     std::uint64_t& count = required(needed, "needed");
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());

@@ -7,13 +7,13 @@
 namespace raywise::capi {
 
 inline void intersect(const Tracer& tracer, const rw_ray* ray, rw_hit* hit) {
-    const Ray r = read_ray(ray);
+    const Ray& r = read_ray(ray);
     rw_hit& out = required(hit, "hit");
     write_hit(tracer.closest(r), out);
 }
 
 inline void occluded(const Tracer& tracer, const rw_ray* ray, std::int32_t* answer) {
-    const Ray r = read_ray(ray);
+    const Ray& r = read_ray(ray);
     required(answer, "occluded") = tracer.any(r) ? 1 : 0;
 }
 

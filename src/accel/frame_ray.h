@@ -89,6 +89,8 @@ public:
 
     // The s beyond which no hit at a t of at most `limit` lies.
     float last(double limit) const { return interval_end(limit, 0.5); }
+    // More than what a t, as s, and the ends of the interval are off by, together.
+    float margin() const { return static_cast<float>(margin_); }
 
     // The distance of a plane p on an axis: p * inverse - offset.
     alignas(16) float inverse[4]; // the last of each is not used

@@ -47,7 +47,9 @@ HWY_INLINE bool has_plain_exponent(double power_of_two) {
     return (bits >> 52) - (middle - PlainRay::largest_exponent) <= 2 * PlainRay::largest_exponent;
 }
 
-HWY_INLINE void set_interval(const Ray& ray, double unit, const PlainRayPlace& place, PlainRay& result) {
+HWY_INLINE void set_interval(const Ray& ray, double unit, float bound, PlainRayPlace& place, PlainRay& result) {
+    result.bound = bound;
+    place.half_margin = PlainRay::half_margin * bound;
     result.first = place.first(ray.tmin * unit);
     result.last = place.last(ray.tmax * unit);
 }
@@ -63,20 +65,21 @@ HWY_INLINE std::uint32_t bits_of_axes(hn::MFromD<Doubles> mask) {
     return bytes[0];
 }
 
-HWY_INLINE void set_directions(hn::VFromD<Doubles> start64, hn::VFromD<Doubles> direction64, PlainRay& result) {
+HWY_INLINE void set_directions(hn::VFromD<Doubles> start64, hn::VFromD<Doubles> direction64, float bound,
+                               PlainRay& result) {
     const Floats f;
     const auto start = hn::DemoteTo(f, start64);
     const auto direction = hn::DemoteTo(f, direction64);
     const auto magnitude = hn::Max(hn::Abs(direction), hn::Set(f, PlainRay::smallest_direction));
     const auto inverse = hn::CopySign(hn::Div(hn::Set(f, 1.0f), magnitude), direction);
-    const auto shift = hn::CopySign(hn::Set(f, PlainRay::shift), direction);
+    const auto shift = hn::CopySign(hn::Set(f, PlainRay::shift * bound), direction);
     hn::Store(inverse, f, result.inverse);
-    hn::Store(hn::MulAdd(hn::Add(start, shift), inverse, hn::Set(f, PlainRay::half_margin)), f, result.entry_offset);
+    hn::Store(hn::MulAdd(hn::Add(start, shift), inverse, hn::Set(f, PlainRay::half_margin * bound)), f, result.entry_offset);
     hn::Store(start, f, result.start);
     hn::Store(direction, f, result.direction);
     std::uint8_t negative[8] = {};
     hn::StoreMaskBits(f, hn::Lt(inverse, hn::Zero(f)), negative);
-    result.octant = negative[0] & 7u;
+    result.octant = static_cast<std::uint8_t>(negative[0] & 7u);
 }
 
 // The members are written where they are to be: a ray that was just written takes long to copy.
@@ -96,7 +99,7 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
     const auto inverse_unit = hn::BitCast(d, hn::Sub(hn::Set(du, std::uint64_t{0x7FE} << 52), unit_bits));
     const double unit = hn::GetLane(hn::BitCast(d, unit_bits));
 
-    const auto start = hn::Mul(hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4())), hn::Set(d, frame.scale()));
+    auto start = hn::Mul(hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4())), hn::Set(d, frame.scale()));
     const auto start_magnitude = hn::And(start, magnitude_bits);
     const auto is_number = hn::Le(magnitude, largest); // in all three, or one is none
     if (HWY_UNLIKELY(bits_of_axes(hn::And(is_number, hn::Le(start_magnitude, hn::Set(d, PlainRay::farthest)))) != 15u ||
@@ -104,8 +107,12 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
         return PlainRayStatus::odd;
 
     const auto scaled = hn::Mul(direction, inverse_unit);
-    place = {frame.scale(), 0.0};
-    if (HWY_UNLIKELY(bits_of_axes(hn::Le(start_magnitude, hn::Set(d, PlainRay::reach))) != 15u)) {
+    place.scale = frame.scale();
+    place.start = 0.0;
+    float bound = 1.0f;
+    if (HWY_LIKELY(bits_of_axes(hn::Le(start_magnitude, hn::Set(d, 1.0))) == 15u)) {
+        bound = PlainRay::within_frame;
+    } else if (HWY_UNLIKELY(bits_of_axes(hn::Le(start_magnitude, hn::Set(d, PlainRay::reach))) != 15u)) {
         HWY_ALIGN double start_of[4];
         HWY_ALIGN double direction_of[4];
         hn::Store(start, d, start_of);
@@ -114,12 +121,11 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
         if (!move_to_frame({direction_of[0], direction_of[1], direction_of[2]}, moved, place.start))
             return PlainRayStatus::misses;
         HWY_ALIGN const double moved_to[4] = {moved.x, moved.y, moved.z, 0.0};
-        set_directions(hn::Load(d, moved_to), scaled, result);
-    } else {
-        set_directions(start, scaled, result);
+        start = hn::Load(d, moved_to);
     }
-    result.major_axis = static_cast<std::uint32_t>(__builtin_ctz(bits_of_axes(hn::Eq(magnitude, largest))));
-    set_interval(ray, unit, place, result);
+    set_directions(start, scaled, bound, result);
+    result.major_axis = static_cast<std::uint8_t>(__builtin_ctz(bits_of_axes(hn::Eq(magnitude, largest))));
+    set_interval(ray, unit, bound, place, result);
     return PlainRayStatus::plain;
 }
 
@@ -135,7 +141,9 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
         return PlainRayStatus::odd;
     const RayUnit unit(major.magnitude);
     const Vec3 direction = ray.direction * unit.inverse_unit();
-    place = {frame.scale(), 0.0};
+    place.scale = frame.scale();
+    place.start = 0.0;
+    const float bound = far <= 1.0 ? PlainRay::within_frame : 1.0f;
     if (far > PlainRay::reach && !move_to_frame(direction, start, place.start)) return PlainRayStatus::misses;
     result.octant = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -144,13 +152,13 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
         const float inverse = std::copysign(1.0f / magnitude, along);
         const auto from = static_cast<float>(start[axis]);
         result.inverse[axis] = inverse;
-        result.entry_offset[axis] = (from + std::copysign(PlainRay::shift, along)) * inverse + PlainRay::half_margin;
+        result.entry_offset[axis] = (from + std::copysign(PlainRay::shift * bound, along)) * inverse + PlainRay::half_margin * bound;
         result.start[axis] = from;
         result.direction[axis] = along;
-        if (inverse < 0.0f) result.octant |= 1u << axis;
+        if (inverse < 0.0f) result.octant |= static_cast<std::uint8_t>(1u << axis);
     }
-    result.major_axis = static_cast<std::uint32_t>(major.axis);
-    set_interval(ray, unit.unit(), place, result);
+    result.major_axis = static_cast<std::uint8_t>(major.axis);
+    set_interval(ray, unit.unit(), bound, place, result);
     return PlainRayStatus::plain;
 }
 

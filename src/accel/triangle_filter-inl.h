@@ -8,7 +8,7 @@
 // With R the largest |x| or |y| of the three corners, an edge x1 y2 - y1 x2 is wrong by at most 4 R e + 2 e^2, and rounded by 4 u R^2,
 // fused or not. Edges that are certainly of different signs are those of a miss, by exact arithmetic too.
 //
-// A corner's distance along the ray, z times the inverse of the direction there, is wrong by at most 4 u D, which is below e.
+// A corner's distance along the ray, z times the inverse of the direction there, is wrong by at most 5 u D, which is below 0.32 e.
 //
 // For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
 #if defined(RAYWISE_ACCEL_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -23,6 +23,8 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
@@ -91,47 +93,50 @@ HWY_INLINE auto may_hit(const SignedEdges<V>& edges) {
     return hn::Not(hn::And(hn::Gt(edges.highest, edges.error), hn::Lt(edges.lowest, hn::Neg(edges.error))));
 }
 
-// The sum of the corners' distances from s, weighted by the edges: its sign, times that of the edges, says whether a hit lies beyond s
-// or before it. What it may be wrong by: 3 (W e + M E), with W the largest edge and its error E, M the largest of the distances and e
-// what they are wrong by; and the sum's rounding, below 12 u W M.
-template <class V>
-struct Beyond {
-    V sum;
-    V error;
+// What is known of triangles that may be hit.
+template <class D, class V = hn::VFromD<D>>
+struct Findings {
+    using Mask = decltype(hn::Lt(std::declval<V>(), std::declval<V>()));
+    Mask possible;  // a hit in the interval
+    Mask certain;   // one even when the interval is shorter by `margin` at both ends
+    V lower, upper; // the s of the hit lies between them; rounded by a few u (1 + L)
 };
 
+// Of triangles whose edges say may_hit, at an s in [first, last].
+//
+// The hit is at the mean of the corners' distances, weighted by the edges, which is taken relative to the first corner: x / W there,
+// with W the sum of the edges. With w the largest edge and E the edges' error, M the largest difference of distances and e' what
+// they are wrong by, x is wrong by at most 3 (w e' + M E), and rounded by less than 12 u w M; W by 3 E. So with W' = |W| - 4 E, x / W' is
+// within (error of x + 8 E |x / W'|) / W' of the hit, where W' is positive. Elsewhere nothing is known.
 template <class D, class V = hn::VFromD<D>>
-HWY_INLINE Beyond<V> beyond(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, V largest_edge, V sa, V sb, V sc,
-                            V s) {
-    const V da = hn::Sub(sa, s);
-    const V db = hn::Sub(sb, s);
-    const V dc = hn::Sub(sc, s);
-    const V sum = hn::MulAdd(edges.a, da, hn::MulAdd(edges.b, db, hn::Mul(edges.c, dc)));
-    const V farthest = hn::Max(hn::Abs(da), hn::Max(hn::Abs(db), hn::Abs(dc)));
-    const V per_edge = hn::MulAdd(farthest, hn::Set(d, 0x1p-20f), ray.four_e); // more than 3.1 e, and 12 u M
-    return {sum, hn::MulAdd(hn::Mul(farthest, edges.error), hn::Set(d, 3.1f), hn::Mul(largest_edge, per_edge))};
-}
-
-// Which of the triangles that may be hit may be so at an s in [first, last].
-template <class D, class V = hn::VFromD<D>>
-HWY_INLINE auto may_hit_within(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, const ShearedCorners<V>& a,
-                               const ShearedCorners<V>& b, const ShearedCorners<V>& c, V first, V last) {
+HWY_INLINE Findings<D> find_within(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, const ShearedCorners<V>& a,
+                                   const ShearedCorners<V>& b, const ShearedCorners<V>& c, V first, V last, V margin) {
     const V sa = hn::Mul(a.z, ray.inverse_z);
-    const V sb = hn::Mul(b.z, ray.inverse_z);
-    const V sc = hn::Mul(c.z, ray.inverse_z);
-    const V largest_edge = hn::Add(hn::Max(edges.highest, hn::Neg(edges.lowest)), edges.error);
+    const V db = hn::Sub(hn::Mul(b.z, ray.inverse_z), sa);
+    const V dc = hn::Sub(hn::Mul(c.z, ray.inverse_z), sa);
+    const V largest = hn::Max(edges.highest, hn::Neg(edges.lowest));
     const V area = hn::Add(edges.a, hn::Add(edges.b, edges.c));
-    const V sign = hn::And(area, hn::SignBit(d));
-    // Beyond the scene all distances are alike, and products of larger ones might overflow.
-    const V bound = hn::Set(d, 16.0f);
-    const Beyond<V> of_first =
-        beyond(d, ray, edges, largest_edge, sa, sb, sc, hn::Max(hn::Min(first, bound), hn::Neg(bound)));
-    const Beyond<V> of_last =
-        beyond(d, ray, edges, largest_edge, sa, sb, sc, hn::Max(hn::Min(last, bound), hn::Neg(bound)));
-    const auto before = hn::Lt(hn::Xor(of_first.sum, sign), hn::Neg(of_first.error));
-    const auto after = hn::Gt(hn::Xor(of_last.sum, sign), of_last.error);
-    const auto sign_certain = hn::Gt(hn::Abs(area), hn::Mul(edges.error, hn::Set(d, 4.0f)));
-    return hn::Not(hn::And(sign_certain, hn::Or(before, after)));
+    const V size = hn::NegMulAdd(hn::Set(d, 4.0f), edges.error, hn::Abs(area));
+    const V x = hn::Xor(hn::MulAdd(edges.b, db, hn::Mul(edges.c, dc)), hn::And(area, hn::SignBit(d)));
+    const V farthest = hn::Max(hn::Abs(db), hn::Abs(dc));
+    // More than 12 u M, and three times what distances are wrong by; with the error of the edge itself, which is not the largest for
+    // certain.
+    const V per_edge = hn::MulAdd(farthest, hn::Set(d, 0x1p-20f), hn::Mul(ray.four_e, hn::Set(d, 0.25f)));
+    const V x_error = hn::MulAdd(hn::Mul(farthest, edges.error), hn::Set(d, 3.1f),
+                                 hn::Mul(hn::Add(largest, edges.error), per_edge));
+    const V inverse = hn::Div(hn::Set(d, 1.01f), size);
+    const V quotient = hn::Mul(x, hn::Mul(inverse, hn::Set(d, 1.0f / 1.01f)));
+    const V error = hn::Mul(hn::MulAdd(hn::Mul(edges.error, hn::Set(d, 8.0f)), hn::Abs(quotient), x_error), inverse);
+    const V hit = hn::Add(sa, quotient);
+    const V lower = hn::Sub(hit, error);
+    const V upper = hn::Add(hit, error);
+
+    const auto known = hn::Gt(size, hn::Zero(d));
+    const auto outside = hn::Or(hn::Lt(upper, first), hn::Gt(lower, last));
+    const auto within = hn::And(hn::Gt(hn::Sub(lower, margin), first), hn::Lt(hn::Add(upper, margin), last));
+    const auto edges_certain = hn::Gt(hn::Max(edges.lowest, hn::Neg(edges.highest)), edges.error);
+    return {hn::Not(hn::And(known, outside)), hn::And(hn::And(known, edges_certain), within),
+            hn::IfThenElse(known, lower, hn::Set(d, -std::numeric_limits<float>::infinity())), upper};
 }
 
 } // namespace raywise::HWY_NAMESPACE

@@ -21,13 +21,15 @@ namespace {
 // A ray that is prepared when a triangle has to be tested exactly, which half of all rays never come to.
 class LazyRay {
 public:
-    explicit LazyRay(const PreparedRay& ray) : prepared_(&ray) {}
+    explicit LazyRay(const PreparedRay& ray) : skip_(ray.skip), prepared_(&ray) {}
     explicit LazyRay(const UnpreparedRay& ray) : ray_(&ray.ray), bounds_(&ray.bounds), skip_(ray.skip) {}
 
     HWY_INLINE const PreparedRay& prepared() {
         if (prepared_ == nullptr) prepared_ = &storage_.emplace(*ray_, *bounds_, skip_);
         return *prepared_;
     }
+
+    const SkipList& skip() const { return skip_; }
 
 private:
     const Ray* ray_ = nullptr;
@@ -52,10 +54,22 @@ public:
     HWY_INLINE Corners corners(const BlockTriangle& triangle) const {
         return scene_.bvh.exact ? triangle.corners(scene_.bvh.frame) : scene_.primitives.corners(triangle.primitive());
     }
+    bool skips(const BlockTriangle& triangle) const {
+        const SkipList& skip = ray_.skip();
+        return !skip.empty() && skip.contains(triangle.primitive());
+    }
 
 private:
     const WideBvhScene& scene_;
     LazyRay ray_;
+};
+
+// The triangle of which float32 says that it may be hit first. It is tested exactly when another may be hit about as early, and at the
+// end: once for most rays.
+struct Pending {
+    BlockTriangle triangle;
+    float lower; // it is not hit before this s
+    bool is_there;
 };
 
 // Limits is FrameRay or PlainRayPlace, and `last` what the ray is culled by.
@@ -64,30 +78,51 @@ class ClosestSink {
 public:
     static constexpr bool in_order = true;
 
+    // margin: as PlainRay's. pending: not there at first; what is there when all is visited has to be settled.
     template <class AnyRay>
-    ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const Limits& limits, float& last, PrimitiveHit& best,
-                Corners& corners)
-        : test_(scene, ray), limits_(limits), last_(last), best_(best), corners_(corners) {}
+    ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const Limits& limits, float margin, float& last,
+                Pending& pending, PrimitiveHit& best, Corners& corners)
+        : test_(scene, ray),
+          limits_(limits),
+          margin_(margin),
+          last_(last),
+          pending_(pending),
+          best_(best),
+          corners_(corners) {}
 
-    HWY_INLINE bool test(const BlockTriangle& triangle) {
-        const Corners corners = test_.corners(triangle);
-        PrimitiveHit hit;
-        if (test_(triangle, corners, hit) && hit < best_) {
-            best_.t = hit.t; // member by member: a copy of what was just written would take long
-            best_.u = hit.u;
-            best_.v = hit.v;
-            best_.primitive = hit.primitive;
-            corners_ = corners;
-            last_ = limits_.last(hit.t);
-        }
+    HWY_INLINE bool test(const BlockTriangle& triangle, bool certain, float lower, float upper) {
+        if (HWY_UNLIKELY(test_.skips(triangle))) return false;
+        const float before = certain ? upper + margin_ : std::numeric_limits<float>::infinity();
+        if (pending_.is_there && !(before < pending_.lower)) settle();
+        if (lower > last_) return false;
+        pending_ = {triangle, lower, true};
+        last_ = before < last_ ? before : last_;
         return false;
     }
     float last() const { return last_; }
 
+    HWY_NOINLINE void settle() {
+        pending_.is_there = false;
+        const Corners corners = test_.corners(pending_.triangle);
+        PrimitiveHit hit;
+        if (!test_(pending_.triangle, corners, hit) || !(hit < best_)) return;
+        best_.t = hit.t; // member by member: a copy of what was just written would take long
+        best_.u = hit.u;
+        best_.v = hit.v;
+        best_.primitive = hit.primitive;
+        corners_ = corners;
+        last_ = std::min(last_, limits_.last(hit.t));
+    }
+    void finish() {
+        if (pending_.is_there) settle();
+    }
+
 private:
     ExactTest test_;
     const Limits& limits_;
+    const float margin_;
     float& last_;
+    Pending& pending_;
     PrimitiveHit& best_;
     Corners& corners_;
 };
@@ -100,9 +135,10 @@ public:
     AnySink(const WideBvhScene& scene, const AnyRay& ray, float& last, bool& found)
         : test_(scene, ray), last_(last), found_(found) {}
 
-    HWY_INLINE bool test(const BlockTriangle& triangle) {
+    HWY_INLINE bool test(const BlockTriangle& triangle, bool certain, float, float) {
+        if (HWY_UNLIKELY(test_.skips(triangle))) return false;
         PrimitiveHit hit;
-        if (!test_(triangle, hit)) return false;
+        if (!certain && !test_(triangle, hit)) return false;
         found_ = true;
         last_ = -std::numeric_limits<float>::infinity(); // it enters no box any more
         return true;
@@ -122,7 +158,7 @@ public:
     AllSink(const WideBvhScene& scene, const PreparedRay& ray, float last, std::vector<PrimitiveHit>& hits)
         : test_(scene, ray), hits_(hits), last_(last) {}
 
-    bool test(const BlockTriangle& triangle) {
+    bool test(const BlockTriangle& triangle, bool, float, float) {
         PrimitiveHit hit;
         if (test_(triangle, hit)) hits_.push_back(hit);
         return false;
@@ -140,8 +176,11 @@ SurfaceHit closest_prepared(const WideBvhScene& scene, const PreparedRay& ray) {
     if (scene.bvh.nodes.empty()) return best;
     FrameRay frame_ray(ray, scene.bvh.frame);
     if (frame_ray.misses()) return best;
-    ClosestSink<FrameRay> sink(scene, ray, frame_ray, frame_ray.last_of_ray, best, best.corners);
+    Pending pending{};
+    ClosestSink<FrameRay> sink(scene, ray, frame_ray, frame_ray.margin(), frame_ray.last_of_ray, pending, best,
+                               best.corners);
     traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
+    sink.finish();
     return best;
 }
 
@@ -162,16 +201,21 @@ HWY_NOINLINE bool any_odd(const WideBvhScene& scene, const UnpreparedRay& ray) {
     return PreparedRay::is_traceable(ray.ray) && any_prepared(scene, ray.prepare());
 }
 
+// One variable is returned, so that it is made where the caller wants it: one that was just written takes long to copy.
 SurfaceHit closest_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) {
     SurfaceHit best;
     if (scene.bvh.nodes.empty()) return best;
     PlainRay plain;
     PlainRayPlace place;
     const PlainRayStatus status = set_plain_ray(ray.ray, scene.bvh.frame, plain, place);
-    if (HWY_UNLIKELY(status == PlainRayStatus::odd)) return closest_odd(scene, ray);
-    if (status == PlainRayStatus::misses) return best;
-    ClosestSink<PlainRayPlace> sink(scene, ray, place, plain.last, best, best.corners);
-    traverse(scene.bvh, plain, WideReference::node(0), sink);
+    if (HWY_LIKELY(status == PlainRayStatus::plain)) {
+        Pending pending{};
+        ClosestSink<PlainRayPlace> sink(scene, ray, place, plain.margin(), plain.last, pending, best, best.corners);
+        traverse(scene.bvh, plain, WideReference::node(0), sink);
+        sink.finish();
+    } else if (status == PlainRayStatus::odd) {
+        best = closest_odd(scene, ray);
+    }
     return best;
 }
 
@@ -181,10 +225,12 @@ bool any_unprepared(const WideBvhScene& scene, const UnpreparedRay& ray) {
     PlainRay plain;
     PlainRayPlace place;
     const PlainRayStatus status = set_plain_ray(ray.ray, scene.bvh.frame, plain, place);
-    if (HWY_UNLIKELY(status == PlainRayStatus::odd)) return any_odd(scene, ray);
-    if (status == PlainRayStatus::misses) return found;
-    AnySink sink(scene, ray, plain.last, found);
-    traverse(scene.bvh, plain, WideReference::node(0), sink);
+    if (HWY_LIKELY(status == PlainRayStatus::plain)) {
+        AnySink sink(scene, ray, plain.last, found);
+        traverse(scene.bvh, plain, WideReference::node(0), sink);
+    } else if (status == PlainRayStatus::odd) {
+        found = any_odd(scene, ray);
+    }
     return found;
 }
 
@@ -258,11 +304,13 @@ struct ClosestOfMany {
     const WideBvhScene& scene;
     const UnpreparedRays& rays;
     StreamRays& stream_rays;
+    Pending* pending;
     const SurfaceHits& hits;
 
     bool is_done(std::size_t) const { return false; }
     ClosestSink<PlainRayPlace> of_ray(std::size_t i) {
-        return {scene, rays[i], stream_rays.place(i), stream_rays.plain(i).last, hits.hits[i], hits.corners[i]};
+        PlainRay& plain = stream_rays.plain(i);
+        return {scene, rays[i], stream_rays.place(i), plain.margin(), plain.last, pending[i], hits.hits[i], hits.corners[i]};
     }
 };
 
@@ -288,8 +336,13 @@ void closest_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, cons
     }
     std::fill_n(hits.hits, rays.count, PrimitiveHit{});
     StreamRays stream_rays(scene, rays, scratch, [&](std::size_t i) { hits.put(i, closest_odd(scene, rays[i])); });
-    ClosestOfMany sink{scene, rays, stream_rays, hits};
+    auto* const pending = scratch.take<Pending>(rays.count);
+    std::fill_n(pending, rays.count, Pending{});
+    ClosestOfMany sink{scene, rays, stream_rays, pending, hits};
     stream_rays.trace(scene.bvh, sink, scratch);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        if (pending[i].is_there) sink.of_ray(i).settle();
+    }
 }
 
 void any_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch) {

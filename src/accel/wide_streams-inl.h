@@ -147,14 +147,14 @@ private:
             const auto numbers = hn::IfThenElseZero(present, hn::LoadU(du, waiting_ + group.begin + k));
             const auto offsets = hn::BitCast(di, hn::ShiftLeft<6>(numbers));
             static_assert(sizeof(PlainRay) == 1u << 6);
-            const float* const base = rays_[0].inverse;
+            const RayVector bound = hn::GatherOffset(d, &rays_[0].bound, offsets);
             RayVector inverse[3];
             RayVector entry_offset[3];
             RayVector exit_offset[3];
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                inverse[axis] = hn::GatherOffset(d, base + axis, offsets);
+                inverse[axis] = hn::GatherOffset(d, rays_[0].inverse + axis, offsets);
                 entry_offset[axis] = hn::GatherOffset(d, rays_[0].entry_offset + axis, offsets);
-                exit_offset[axis] = plain_exit_offset(d, inverse[axis], entry_offset[axis]);
+                exit_offset[axis] = plain_exit_offset(d, bound, inverse[axis], entry_offset[axis]);
             }
             const RayVector first = hn::GatherOffset(d, &rays_[0].first, offsets);
             const RayVector last = hn::GatherOffset(d, &rays_[0].last, offsets);

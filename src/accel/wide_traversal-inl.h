@@ -37,9 +37,10 @@ HWY_INLINE std::uint32_t lowest_bit(std::uint32_t bits) { return static_cast<std
 
 // See PlainRay.
 template <class D, class V = hn::VFromD<D>>
-HWY_INLINE V plain_exit_offset(D d, V inverse, V entry_offset) {
-    return hn::NegMulAdd(hn::Set(d, PlainRay::exit_per_inverse), hn::Abs(inverse),
-                         hn::Sub(entry_offset, hn::Set(d, PlainRay::exit_constant)));
+HWY_INLINE V plain_exit_offset(D d, V bound, V inverse, V entry_offset) {
+    const V apart =
+        hn::MulAdd(hn::Set(d, PlainRay::exit_per_inverse), hn::Abs(inverse), hn::Set(d, PlainRay::exit_constant));
+    return hn::NegMulAdd(bound, apart, entry_offset);
 }
 
 // The boxes of a node against a ray.
@@ -49,8 +50,9 @@ public:
         for (std::size_t axis = 0; axis < 3; ++axis) exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
     }
     HWY_INLINE explicit BoxTest(const PlainRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.octant) {
+        const Vector bound = hn::Set(Lanes(), ray.bound);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            exit_offset_[axis] = plain_exit_offset(Lanes(), inverse_[axis], entry_offset_[axis]);
+            exit_offset_[axis] = plain_exit_offset(Lanes(), bound, inverse_[axis], entry_offset_[axis]);
     }
 
     // Which children may hold a hit up to `last`, as bits; where the ray enters each goes to `entries`.
@@ -96,31 +98,44 @@ private:
     std::size_t entry_line_[3]; // in bytes
 };
 
+// Of the triangles of a block: which may be hit, which are for certain, and about where (Findings).
+struct BlockFindings {
+    std::uint32_t possible; // bits
+    std::uint32_t certain;
+    alignas(64) float lower[wide_bvh_width]; // of those that may be hit
+    alignas(64) float upper[wide_bvh_width];
+};
+
 // The triangles of a block against a ray.
 class BlockTest {
 public:
-    HWY_INLINE BlockTest(const TriangleRay& ray, float first)
+    HWY_INLINE BlockTest(const TriangleRay& ray, float first, float margin)
         : filter_(Lanes(), ray),
           first_(hn::Set(Lanes(), first)),
+          margin_(hn::Set(Lanes(), margin)),
           axes_{static_cast<std::size_t>(ray.x_axis), static_cast<std::size_t>(ray.y_axis),
                 static_cast<std::size_t>(ray.z_axis)} {}
 
-    // Which of n triangles may be hit up to `last`, as bits.
-    HWY_INLINE std::uint32_t operator()(const BlockWord* block, std::size_t n, float last) const {
+    // Of n triangles, up to `last`.
+    HWY_INLINE void operator()(const BlockWord* block, std::uint32_t n, float last, BlockFindings& found) const {
         const Lanes d;
-        std::uint32_t bits = 0;
-        for (std::size_t lane = 0; lane < n; lane += lane_count) {
+        found.possible = 0;
+        found.certain = 0;
+        for (std::uint32_t lane = 0; lane < n; lane += lane_count) {
             const BlockWord* const lines = block + lane;
             const auto a = corner(lines, n);
             const auto b = corner(lines + 3 * n, n);
             const auto c = corner(lines + 6 * n, n);
             const auto edges = edges_of(d, filter_, a, b, c);
             const std::uint32_t present = ((1u << (n - lane)) - 1u) & ((1u << lane_count) - 1u);
-            std::uint32_t part = bits_of(may_hit(edges)) & present;
-            if (part != 0) part &= bits_of(may_hit_within(d, filter_, edges, a, b, c, first_, hn::Set(d, last)));
-            bits |= part << lane;
+            const std::uint32_t part = bits_of(may_hit(edges)) & present;
+            if (part == 0) continue;
+            const auto findings = find_within(d, filter_, edges, a, b, c, first_, hn::Set(d, last), margin_);
+            found.possible |= (bits_of(findings.possible) & part) << lane;
+            found.certain |= (bits_of(findings.certain) & part) << lane;
+            hn::Store(findings.lower, d, found.lower + lane);
+            hn::Store(findings.upper, d, found.upper + lane);
         }
-        return bits;
     }
 
 private:
@@ -132,6 +147,7 @@ private:
 
     FilterRay<Lanes> filter_;
     Vector first_;
+    Vector margin_;
     std::size_t axes_[3];
 };
 
@@ -154,13 +170,16 @@ HWY_INLINE TriangleRay for_triangles(const PlainRay& ray) { return ray.for_trian
 // that what a ray needs for triangles does not take registers from what it needs for boxes.
 template <class CullRay, class Sink>
 HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const CullRay& ray, WideReference leaf, Sink& sink) {
-    const BlockTest block_test(for_triangles(ray), ray.first);
+    const BlockTest block_test(for_triangles(ray), ray.first, ray.margin());
+    BlockFindings found;
     const std::uint32_t triangles = leaf.triangles();
     for (std::uint32_t begin = 0; begin < triangles; begin += block_size) {
         const std::uint32_t n = triangles - begin < block_size ? triangles - begin : block_size;
         const BlockWord* const block = bvh.block(std::size_t{leaf.index()} + begin);
-        for (std::uint32_t bits = block_test(block, n, sink.last()); bits != 0; bits &= bits - 1) {
-            if (sink.test({block, n, lowest_bit(bits)})) return true;
+        block_test(block, n, sink.last(), found);
+        for (std::uint32_t bits = found.possible; bits != 0; bits &= bits - 1) {
+            const std::uint32_t i = lowest_bit(bits);
+            if (sink.test({block, n, i}, (found.certain >> i & 1u) != 0, found.lower[i], found.upper[i])) return true;
         }
     }
     return false;

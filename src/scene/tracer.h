@@ -39,8 +39,16 @@ public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
     // skip: numbers of this scene's primitives.
-    Hit closest(const Ray& ray, SkipList skip = {}) const;
-    bool any(const Ray& ray, SkipList skip = {}) const;
+    Hit closest(const Ray& ray, SkipList skip = {}) const {
+        const SurfaceHit hit = accel_->closest(UnpreparedRay{ray, primitives_->bounds(), skip});
+        if (!hit.is_hit()) count_invalid(ray);
+        return to_caller(ray, hit, hit.corners);
+    }
+    bool any(const Ray& ray, SkipList skip = {}) const {
+        const bool found = accel_->any(UnpreparedRay{ray, primitives_->bounds(), skip});
+        if (!found) count_invalid(ray);
+        return found;
+    }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
     void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
 
@@ -51,10 +59,17 @@ public:
     Usage& usage() const { return *usage_; }
 
     // What a structure answers to a ray, as the caller sees it. corners: needed for a hit only.
-    Hit to_caller(const Ray& ray, const PrimitiveHit& hit, const Corners& corners) const;
+    Hit to_caller(const Ray& ray, const PrimitiveHit& hit, const Corners& corners) const {
+        if (!hit.is_hit()) return {};
+        const RayUnit unit(MajorAxis(ray.direction).magnitude);
+        const PrimitiveId id = primitives_->locate(hit.primitive);
+        return {unit.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
+    }
 
 private:
-    void count_invalid(const Ray& ray) const;
+    void count_invalid(const Ray& ray) const {
+        if (ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+    }
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;
