@@ -89,6 +89,7 @@ public:
 
     // The s beyond which no hit at a t of at most `limit` lies.
     float last(double limit) const { return interval_end(limit, 0.5); }
+    float first_for_triangles() const { return first; }
     // More than what a t, as s, and the ends of the interval are off by, together.
     float margin() const { return static_cast<float>(margin_); }
 

@@ -53,9 +53,7 @@ void LinearScan::gather(const BuildInput& input) {
     });
 }
 
-ScannedScene LinearScan::scanned() const {
-    return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()};
-}
+ScannedScene LinearScan::scanned() const { return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}; }
 
 SurfaceHit LinearScan::closest(const PreparedRay& ray) const {
     SurfaceHit hit;

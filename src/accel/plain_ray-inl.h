@@ -74,7 +74,8 @@ HWY_INLINE void set_directions(hn::VFromD<Doubles> start64, hn::VFromD<Doubles> 
     const auto inverse = hn::CopySign(hn::Div(hn::Set(f, 1.0f), magnitude), direction);
     const auto shift = hn::CopySign(hn::Set(f, PlainRay::shift * bound), direction);
     hn::Store(inverse, f, result.inverse);
-    hn::Store(hn::MulAdd(hn::Add(start, shift), inverse, hn::Set(f, PlainRay::half_margin * bound)), f, result.entry_offset);
+    hn::Store(hn::MulAdd(hn::Add(start, shift), inverse, hn::Set(f, PlainRay::half_margin * bound)), f,
+              result.entry_offset);
     hn::Store(start, f, result.start);
     hn::Store(direction, f, result.direction);
     std::uint8_t negative[8] = {};
@@ -83,14 +84,16 @@ HWY_INLINE void set_directions(hn::VFromD<Doubles> start64, hn::VFromD<Doubles> 
 }
 
 // The members are written where they are to be: a ray that was just written takes long to copy.
-HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame, PlainRay& result, PlainRayPlace& place) {
+HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame, PlainRay& result,
+                                        PlainRayPlace& place) {
     const Doubles d;
     const hn::RebindToUnsigned<Doubles> du;
     static_assert(offsetof(Ray, tmin) == offsetof(Ray, origin) + 24 &&
                   offsetof(Ray, tmax) == offsetof(Ray, direction) + 24);
     alignas(32) static constexpr std::uint64_t axes_of_magnitude[4] = {~std::uint64_t{0} >> 1, ~std::uint64_t{0} >> 1,
                                                                        ~std::uint64_t{0} >> 1, 0};
-    const auto magnitude_bits = hn::BitCast(d, hn::Load(du, axes_of_magnitude)); // and no fourth: tmin and tmax go along unused
+    const auto magnitude_bits =
+        hn::BitCast(d, hn::Load(du, axes_of_magnitude)); // and no fourth: tmin and tmax go along unused
     const auto direction = hn::LoadU(d, &ray.direction.x);
     const auto magnitude = hn::And(direction, magnitude_bits);
     const auto of_pairs = hn::Max(magnitude, hn::Shuffle01(magnitude));
@@ -99,7 +102,8 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
     const auto inverse_unit = hn::BitCast(d, hn::Sub(hn::Set(du, std::uint64_t{0x7FE} << 52), unit_bits));
     const double unit = hn::GetLane(hn::BitCast(d, unit_bits));
 
-    auto start = hn::Mul(hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4())), hn::Set(d, frame.scale()));
+    auto start =
+        hn::Mul(hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4())), hn::Set(d, frame.scale()));
     const auto start_magnitude = hn::And(start, magnitude_bits);
     const auto is_number = hn::Le(magnitude, largest); // in all three, or one is none
     if (HWY_UNLIKELY(bits_of_axes(hn::And(is_number, hn::Le(start_magnitude, hn::Set(d, PlainRay::farthest)))) != 15u ||
@@ -131,7 +135,8 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
 
 #else
 
-HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame, PlainRay& result, PlainRayPlace& place) {
+HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame, PlainRay& result,
+                                        PlainRayPlace& place) {
     const MajorAxis major(ray.direction);
     Vec3 start = frame.to_frame(ray.origin);
     const double far = max_component(magnitudes(start));
@@ -152,7 +157,8 @@ HWY_INLINE PlainRayStatus set_plain_ray(const Ray& ray, const SceneFrame& frame,
         const float inverse = std::copysign(1.0f / magnitude, along);
         const auto from = static_cast<float>(start[axis]);
         result.inverse[axis] = inverse;
-        result.entry_offset[axis] = (from + std::copysign(PlainRay::shift * bound, along)) * inverse + PlainRay::half_margin * bound;
+        result.entry_offset[axis] =
+            (from + std::copysign(PlainRay::shift * bound, along)) * inverse + PlainRay::half_margin * bound;
         result.start[axis] = from;
         result.direction[axis] = along;
         if (inverse < 0.0f) result.octant |= static_cast<std::uint8_t>(1u << axis);

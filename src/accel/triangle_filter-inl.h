@@ -1,14 +1,15 @@
 // Many triangles against one ray in float32: which of them the exact test has to look at. Errs towards yes.
 //
-// Corners p are in the coordinates of a SceneFrame, rounded to float32, and u is 2^-24. Sheared as in geometry/triangle_test.h, with
-// D = 1 + L the largest difference between a corner and the ray's start (frame_ray.h): p and start are rounded by u (1 + L), their
-// difference by u D, for z alike; the shear by u, its product with z by u D, the last difference by 2 u D. That is 8 u D in all, and
-// `corner_error` e is twice that, with the start's own rounding added.
+// Corners are in the coordinates of a SceneFrame, rounded to float32, and u is 2^-24. They are sheared as in geometry/triangle_test.h;
+// what a sheared coordinate is wrong by, e, comes with the ray (TriangleRay): of a FrameRay, with D = 1 + L the largest difference
+// between a corner and the ray's start: p and start are rounded by u (1 + L), their difference by u D, for z alike; the shear by u, its
+// product with z by u D, the last difference by 2 u D. That is 8 u D in all, and its corner_error is twice that, with the start's own
+// rounding added.
 //
 // With R the largest |x| or |y| of the three corners, an edge x1 y2 - y1 x2 is wrong by at most 4 R e + 2 e^2, and rounded by 4 u R^2,
 // fused or not. Edges that are certainly of different signs are those of a miss, by exact arithmetic too.
 //
-// A corner's distance along the ray, z times the inverse of the direction there, is wrong by at most 5 u D, which is below 0.32 e.
+// A corner's distance along the ray, z times the inverse of the direction there, is wrong by less than e.
 //
 // For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
 #if defined(RAYWISE_ACCEL_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -42,13 +43,13 @@ struct FilterRay {
           shear_x(hn::Set(d, ray.shear_x)),
           shear_y(hn::Set(d, ray.shear_y)),
           inverse_z(hn::Set(d, ray.inverse_z)),
-          four_e(hn::Set(d, 4.001f * ray.corner_error)),
-          two_e_e(hn::Set(d, 2.001f * ray.corner_error * ray.corner_error)) {}
+          corner_error(hn::Set(d, ray.corner_error)),
+          corner_error_slope(hn::Set(d, ray.corner_error_slope)) {}
 
     V origin_x, origin_y, origin_z;
     V shear_x, shear_y;
     V inverse_z;
-    V four_e, two_e_e;
+    V corner_error, corner_error_slope;
 };
 
 // One corner of each triangle, sheared.
@@ -70,6 +71,7 @@ struct SignedEdges {
     V a, b, c;
     V highest, lowest;
     V error;
+    V corner_error; // e
 };
 
 template <class D, class V = hn::VFromD<D>>
@@ -82,9 +84,12 @@ HWY_INLINE SignedEdges<V> edges_of(D d, const FilterRay<D>& ray, const ShearedCo
     const V reach_b = hn::Max(hn::Abs(b.x), hn::Abs(b.y));
     const V reach_c = hn::Max(hn::Abs(c.x), hn::Abs(c.y));
     const V reach = hn::Max(reach_a, hn::Max(reach_b, reach_c));
-    // 2^-21 R^2 is twice 4 u R^2, for the rounding of this line.
-    const V error = hn::MulAdd(reach, hn::MulAdd(hn::Set(d, 0x1p-21f), reach, ray.four_e), ray.two_e_e);
-    return {wa, wb, wc, hn::Max(wa, hn::Max(wb, wc)), hn::Min(wa, hn::Min(wb, wc)), error};
+    const V reach_z = hn::Max(hn::Abs(a.z), hn::Max(hn::Abs(b.z), hn::Abs(c.z)));
+    const V e = hn::MulAdd(ray.corner_error_slope, hn::Max(reach, reach_z), ray.corner_error);
+    // 2^-21 R^2 is twice 4 u R^2, for the rounding of these lines.
+    const V quadratic = hn::Mul(hn::Add(e, e), e);
+    const V error = hn::MulAdd(reach, hn::MulAdd(hn::Set(d, 4.0f), e, hn::Mul(hn::Set(d, 0x1p-21f), reach)), quadratic);
+    return {wa, wb, wc, hn::Max(wa, hn::Max(wb, wc)), hn::Min(wa, hn::Min(wb, wc)), error, e};
 }
 
 // Which triangles the line of the ray may hit. A NaN or an infinity, of a ray of which nothing is known, keeps the triangle.
@@ -105,12 +110,13 @@ struct Findings {
 // Of triangles whose edges say may_hit, at an s in [first, last].
 //
 // The hit is at the mean of the corners' distances, weighted by the edges, which is taken relative to the first corner: x / W there,
-// with W the sum of the edges. With w the largest edge and E the edges' error, M the largest difference of distances and e' what
-// they are wrong by, x is wrong by at most 3 (w e' + M E), and rounded by less than 12 u w M; W by 3 E. So with W' = |W| - 4 E, x / W' is
+// with W the sum of the edges. With w the largest edge and E the edges' error, M the largest difference of distances and e what
+// they are wrong by, x is wrong by at most 3 (w e + M E), and rounded by less than 12 u w M; W by 3 E. So with W' = |W| - 4 E, x / W' is
 // within (error of x + 8 E |x / W'|) / W' of the hit, where W' is positive. Elsewhere nothing is known.
 template <class D, class V = hn::VFromD<D>>
-HWY_INLINE Findings<D> find_within(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges, const ShearedCorners<V>& a,
-                                   const ShearedCorners<V>& b, const ShearedCorners<V>& c, V first, V last, V margin) {
+HWY_INLINE Findings<D> find_within(D d, const FilterRay<D>& ray, const SignedEdges<V>& edges,
+                                   const ShearedCorners<V>& a, const ShearedCorners<V>& b, const ShearedCorners<V>& c,
+                                   V first, V last, V margin) {
     const V sa = hn::Mul(a.z, ray.inverse_z);
     const V db = hn::Sub(hn::Mul(b.z, ray.inverse_z), sa);
     const V dc = hn::Sub(hn::Mul(c.z, ray.inverse_z), sa);
@@ -119,11 +125,10 @@ HWY_INLINE Findings<D> find_within(D d, const FilterRay<D>& ray, const SignedEdg
     const V size = hn::NegMulAdd(hn::Set(d, 4.0f), edges.error, hn::Abs(area));
     const V x = hn::Xor(hn::MulAdd(edges.b, db, hn::Mul(edges.c, dc)), hn::And(area, hn::SignBit(d)));
     const V farthest = hn::Max(hn::Abs(db), hn::Abs(dc));
-    // More than 12 u M, and three times what distances are wrong by; with the error of the edge itself, which is not the largest for
-    // certain.
-    const V per_edge = hn::MulAdd(farthest, hn::Set(d, 0x1p-20f), hn::Mul(ray.four_e, hn::Set(d, 0.25f)));
-    const V x_error = hn::MulAdd(hn::Mul(farthest, edges.error), hn::Set(d, 3.1f),
-                                 hn::Mul(hn::Add(largest, edges.error), per_edge));
+    // More than 12 u M and 3 e; with the error of the edge itself, which is not the largest for certain.
+    const V per_edge = hn::MulAdd(farthest, hn::Set(d, 0x1p-20f), hn::Mul(edges.corner_error, hn::Set(d, 3.1f)));
+    const V x_error =
+        hn::MulAdd(hn::Mul(farthest, edges.error), hn::Set(d, 3.1f), hn::Mul(hn::Add(largest, edges.error), per_edge));
     const V inverse = hn::Div(hn::Set(d, 1.01f), size);
     const V quotient = hn::Mul(x, hn::Mul(inverse, hn::Set(d, 1.0f / 1.01f)));
     const V error = hn::Mul(hn::MulAdd(hn::Mul(edges.error, hn::Set(d, 8.0f)), hn::Abs(quotient), x_error), inverse);

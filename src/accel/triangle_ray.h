@@ -13,7 +13,10 @@ struct TriangleRay {
     float shear_x;
     float shear_y;
     float inverse_z;
-    float corner_error; // of a sheared coordinate, at most
+    // A sheared coordinate is wrong by at most corner_error + corner_error_slope M, with M the largest coordinate of a corner relative
+    // to the origin, sheared or along z.
+    float corner_error;
+    float corner_error_slope = 0.0f;
 };
 
 } // namespace raywise

@@ -310,7 +310,8 @@ struct ClosestOfMany {
     bool is_done(std::size_t) const { return false; }
     ClosestSink<PlainRayPlace> of_ray(std::size_t i) {
         PlainRay& plain = stream_rays.plain(i);
-        return {scene, rays[i], stream_rays.place(i), plain.margin(), plain.last, pending[i], hits.hits[i], hits.corners[i]};
+        return {scene,      rays[i],    stream_rays.place(i), plain.margin(),
+                plain.last, pending[i], hits.hits[i],         hits.corners[i]};
     }
 };
 

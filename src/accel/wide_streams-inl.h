@@ -163,18 +163,22 @@ private:
                 RayVector entry = first;
                 RayVector exit = last;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    entry = hn::Max(entry, hn::MulSub(hn::Set(d, entry_planes[axis][i]), inverse[axis], entry_offset[axis]));
-                    exit = hn::Min(exit, hn::MulSub(hn::Set(d, exit_planes[axis][i]), inverse[axis], exit_offset[axis]));
+                    entry = hn::Max(entry,
+                                    hn::MulSub(hn::Set(d, entry_planes[axis][i]), inverse[axis], entry_offset[axis]));
+                    exit =
+                        hn::Min(exit, hn::MulSub(hn::Set(d, exit_planes[axis][i]), inverse[axis], exit_offset[axis]));
                 }
                 const auto enters = hn::And(hn::Le(entry, exit), present_rays);
                 std::uint32_t* const list = lists_ + i * list_room_ + counts[i];
-                counts[i] += static_cast<std::uint32_t>(hn::CompressStore(numbers, hn::RebindMask(du, enters), du, list));
+                counts[i] +=
+                    static_cast<std::uint32_t>(hn::CompressStore(numbers, hn::RebindMask(du, enters), du, list));
             }
         }
     }
 
     // By where one of the rays, standing for all, passes the corner of each box that is nearest along the octant.
-    HWY_INLINE void sort_farthest_first(const WideNode& node, const PlainRay& ray, std::uint32_t* order, std::uint32_t n) const {
+    HWY_INLINE void sort_farthest_first(const WideNode& node, const PlainRay& ray, std::uint32_t* order,
+                                        std::uint32_t n) const {
         float along[wide_bvh_width];
         for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
             along[i] = 0.0f;

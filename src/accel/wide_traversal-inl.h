@@ -46,7 +46,8 @@ HWY_INLINE V plain_exit_offset(D d, V bound, V inverse, V entry_offset) {
 // The boxes of a node against a ray.
 class BoxTest {
 public:
-    HWY_INLINE explicit BoxTest(const FrameRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.backwards) {
+    HWY_INLINE explicit BoxTest(const FrameRay& ray)
+        : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.backwards) {
         for (std::size_t axis = 0; axis < 3; ++axis) exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
     }
     HWY_INLINE explicit BoxTest(const PlainRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.octant) {
@@ -170,7 +171,7 @@ HWY_INLINE TriangleRay for_triangles(const PlainRay& ray) { return ray.for_trian
 // that what a ray needs for triangles does not take registers from what it needs for boxes.
 template <class CullRay, class Sink>
 HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const CullRay& ray, WideReference leaf, Sink& sink) {
-    const BlockTest block_test(for_triangles(ray), ray.first, ray.margin());
+    const BlockTest block_test(for_triangles(ray), ray.first_for_triangles(), ray.margin());
     BlockFindings found;
     const std::uint32_t triangles = leaf.triangles();
     for (std::uint32_t begin = 0; begin < triangles; begin += block_size) {

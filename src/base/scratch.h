@@ -34,7 +34,7 @@ private:
     static constexpr std::size_t line = 64;
 
     struct Free {
-        void operator()(std::byte* memory) const { ::operator delete(memory, std::align_val_t{line}); }
+        void operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{line}); }
     };
     struct Chunk {
         std::unique_ptr<std::byte, Free> memory;
@@ -43,7 +43,7 @@ private:
 
     void add_chunk(std::size_t size) {
         chunks_.reserve(chunks_.size() + 1);
-        auto* const memory = static_cast<std::byte*>(::operator new(size, std::align_val_t{line}));
+        auto* const memory = static_cast<std::byte*>(::operator new (size, std::align_val_t{line}));
         chunks_.push_back({std::unique_ptr<std::byte, Free>(memory), size});
     }
 

@@ -92,9 +92,10 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
                               const Parallel& parallel) {
     const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
         if (takes_many(tracer)) {
-            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size), block.scratch.take<Corners>(block.size)};
-            tracer.accel().closest_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()}, found,
-                                        block.scratch);
+            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size),
+                                    block.scratch.take<Corners>(block.size)};
+            tracer.accel().closest_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()},
+                                        found, block.scratch);
             write_hits(tracer, block, found, hits);
         } else {
             Hit* const found = block.scratch.take<Hit>(block.size);

@@ -18,7 +18,8 @@ void store(const OutputArray& array, int component, std::uint64_t first, std::si
 }
 
 template <class ValueOf>
-void write_numbers(const OutputArray& array, int component, std::uint64_t first, std::size_t n, const ValueOf& value_of) {
+void write_numbers(const OutputArray& array, int component, std::uint64_t first, std::size_t n,
+                   const ValueOf& value_of) {
     if (!array.wanted()) return;
     if (array.scalar == Scalar::float32) {
         store<float>(array, component, first, n, value_of);

@@ -22,10 +22,10 @@ struct OutputArray {
 };
 
 struct HitArrays {
-    OutputArray t;         // numbers: float32 or float64, rounded
-    OutputArray uv;        // two
-    OutputArray normal;    // three
-    OutputArray instance;  // ids: uint32 or uint64; no id has all bits set
+    OutputArray t;        // numbers: float32 or float64, rounded
+    OutputArray uv;       // two
+    OutputArray normal;   // three
+    OutputArray instance; // ids: uint32 or uint64; no id has all bits set
     OutputArray geometry;
     OutputArray primitive;
 
