@@ -72,15 +72,18 @@ std::unique_ptr<World> world_of(const Triangles& triangles, const Layout& layout
 // What the plain loop answers.
 struct Expected {
     std::vector<Ray> rays;
+    std::vector<SkipList> skips;
     std::vector<PreparedRay> prepared;
     std::vector<SurfaceHit> closest;
     std::vector<std::vector<PrimitiveHit>> all;
+    Box bounds;
 
-    Expected(World& world, const std::vector<Ray>& asked, SkipList skip = {}) {
+    Expected(World& world, const std::vector<Ray>& asked, SkipList skip = {}) : bounds(world.primitives().bounds()) {
         const PlainScan plain(world.input());
         for (const Ray& ray : asked) {
             if (!PreparedRay::is_traceable(ray)) continue;
             rays.push_back(ray);
+            skips.push_back(skip);
             prepared.emplace_back(ray, world.primitives().bounds(), skip);
             closest.push_back(plain.closest(prepared.back()));
             all.emplace_back();
@@ -111,17 +114,21 @@ void expect_answers(const LinearScan& scan, const Expected& expected) {
             << "all: " << all.size() << " instead of " << expected.all[i].size() << ", " << text_of(expected.rays[i]);
     }
     // In groups of any size, the outputs full of something else before.
+    Scratch scratch;
     std::size_t size = 1;
     for (std::size_t begin = 0; begin < expected.rays.size(); begin += size, size = size * 2 + 1) {
         const std::size_t count = std::min(size, expected.rays.size() - begin);
-        std::vector<SurfaceHit> hits(count);
-        for (SurfaceHit& hit : hits) hit.t = hit.primitive = 0;
+        const UnpreparedRays rays{&expected.rays[begin], &expected.skips[begin], count, expected.bounds};
+        std::vector<PrimitiveHit> hits(count);
+        for (PrimitiveHit& hit : hits) hit.t = hit.primitive = 0;
+        std::vector<Corners> corners(count);
         const auto found = std::make_unique<bool[]>(count);
         std::fill_n(found.get(), count, true);
-        scan.closest_many(&expected.prepared[begin], count, hits.data());
-        scan.any_many(&expected.prepared[begin], count, found.get());
+        scratch.reset();
+        scan.closest_many(rays, {hits.data(), corners.data()}, scratch);
+        scan.any_many(rays, found.get(), scratch);
         for (std::size_t i = 0; i < count; ++i) {
-            ASSERT_TRUE(same_surface(hits[i], expected.closest[begin + i]))
+            ASSERT_TRUE(same_surface({hits[i], corners[i]}, expected.closest[begin + i]))
                 << "closest of " << count << ": " << text_of(expected.rays[begin + i]);
             ASSERT_EQ(found[i], expected.closest[begin + i].is_hit())
                 << "any of " << count << ": " << text_of(expected.rays[begin + i]);

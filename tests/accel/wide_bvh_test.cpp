@@ -7,6 +7,8 @@
 #include "geometry/every_target.h"
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <set>
 
 namespace raywise {
@@ -121,6 +123,92 @@ TEST(WideBvh, SkippedTrianglesAreNotHit) {
         }
         EXPECT_GT(checked, 50);
     });
+}
+
+// Rays of which some hit nothing for certain, some cannot be traced, and some skip what they would hit first.
+struct ManyRays {
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> skipped;
+    std::vector<SkipList> skips;
+    std::vector<PrimitiveHit> closest; // expected
+
+    ManyRays(Scene& scene, const Triangles& triangles, std::size_t count, unsigned seed) {
+        Random random(seed);
+        const oracle::PlainScan scan(scene.input());
+        skipped.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Ray ray = varied_ray(triangles, scene.bounds(), static_cast<int>(i), random);
+            if (i % 17 == 3) ray.direction = -ray.direction;
+            if (i % 29 == 5) ray.tmax = ray.tmin - 1.0;
+            if (i % 31 == 7) ray.origin.y = std::numeric_limits<double>::quiet_NaN();
+            if (i % 37 == 11) ray.direction.z = std::numeric_limits<double>::quiet_NaN();
+            if (i % 41 == 13) ray.direction = Vec3(0.0);
+            rays.push_back(ray);
+            skips.emplace_back();
+            closest.push_back(closest_of(scan, scene, ray, {}));
+            if (i % 5 == 2 && closest.back().is_hit()) {
+                skipped[i] = closest.back().primitive;
+                skips.back() = {&skipped[i], &skipped[i] + 1};
+                closest.back() = closest_of(scan, scene, ray, skips.back());
+            }
+        }
+    }
+
+    static PrimitiveHit closest_of(const oracle::PlainScan& scan, Scene& scene, const Ray& ray, SkipList skip) {
+        return PreparedRay::is_traceable(ray) ? scan.closest(PreparedRay(ray, scene.bounds(), skip)) : PrimitiveHit{};
+    }
+};
+
+void expect_same_of_many(Scene& scene, const Bvh& bvh, const ManyRays& many, std::size_t begin, std::size_t count) {
+    const UnpreparedRays rays{&many.rays[begin], &many.skips[begin], count, scene.bounds()};
+    std::vector<PrimitiveHit> hits(count, PrimitiveHit{-1.0, 0.0, 0.0, 0});
+    std::vector<Corners> corners(count);
+    const auto found = std::make_unique<bool[]>(count);
+    std::fill_n(found.get(), count, true);
+    Scratch scratch;
+    bvh.closest_many(rays, {hits.data(), corners.data()}, scratch);
+    bvh.any_many(rays, found.get(), scratch);
+    for (std::size_t i = 0; i < count; ++i) {
+        const PrimitiveHit& expected = many.closest[begin + i];
+        ASSERT_TRUE(same_hit(hits[i], expected)) << "ray " << i << " of " << count << ": " << text_of(rays.rays[i]);
+        ASSERT_EQ(found[i], expected.is_hit()) << "ray " << i << " of " << count << ": " << text_of(rays.rays[i]);
+        if (expected.is_hit()) {
+            ASSERT_EQ(corners[i], scene.primitives().corners(expected.primitive));
+        }
+    }
+}
+
+TEST(WideBvh, ManyRaysTogetherAreAnsweredAsEachAlone) {
+    const std::vector<Triangles> scenes = {rounded(soup(2000, 0.1, 8)), soup(500, 0.3, 9, 1e-20),
+                                           soup(300, 0.2, 10, 1e-3, Vec3(5e6, -5e6, 5e6)), soup(5, 0.5, 11)};
+    for (const Triangles& triangles : scenes) {
+        Scene scene(triangles);
+        const Bvh bvh(scene.input());
+        const ManyRays many(scene, triangles, 1500, 12);
+        const auto hits = std::count_if(many.closest.begin(), many.closest.end(),
+                                        [](const PrimitiveHit& hit) { return hit.is_hit(); });
+        EXPECT_GT(hits, 100);
+        on_every_target([&] {
+            // Below, at and beyond what makes a stream, and what vectors hold.
+            for (const std::size_t count : {1u, 2u, 31u, 32u, 33u, 47u, 48u, 100u, 1500u})
+                ASSERT_NO_FATAL_FAILURE(expect_same_of_many(scene, bvh, many, many.rays.size() - count, count));
+        });
+    }
+}
+
+TEST(WideBvh, OneRayManyTimes) {
+    const Triangles triangles = rounded(soup(3000, 0.1, 13));
+    Scene scene(triangles);
+    const Bvh bvh(scene.input());
+    Ray ray;
+    ray.origin = Vec3(0.1, 0.2, -5.0);
+    ray.direction = Vec3(0.01, 0.02, 1.0);
+    ManyRays many(scene, triangles, 0, 14);
+    many.rays.resize(700, ray);
+    many.skips.resize(700);
+    many.closest.resize(700, ManyRays::closest_of(oracle::PlainScan(scene.input()), scene, ray, {}));
+    ASSERT_TRUE(many.closest[0].is_hit());
+    on_every_target([&] { expect_same_of_many(scene, bvh, many, 0, 700); });
 }
 
 TEST(WideBvh, EveryTriangleIsInOneLeaf) {
