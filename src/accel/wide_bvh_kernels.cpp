@@ -242,34 +242,23 @@ void all_prepared(const WideBvhScene& scene, const PreparedRay& ray, std::vector
     traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
 }
 
-// Many rays made ready for streams: those of one octant after the other.
+// Many rays made ready for streams: those of each octant for one.
 class StreamRays {
 public:
     // on_odd(i): answers a ray that no stream can take.
     template <class OnOdd>
     StreamRays(const WideBvhScene& scene, const UnpreparedRays& rays, Scratch& scratch, const OnOdd& on_odd)
-        : plain_(scratch.take<PlainRay>(rays.count)),
-          places_(scratch.take<PlainRayPlace>(rays.count)),
-          numbers_(scratch.take<std::uint32_t>(rays.count)) {
-        auto* const plain_numbers = scratch.take<std::uint32_t>(rays.count);
-        std::uint32_t plain_count = 0;
-        std::uint32_t counts[octant_count] = {};
-        for (std::uint32_t i = 0; i < rays.count; ++i) {
+        : plain_(scratch.take<PlainRay>(rays.count)), places_(scratch.take<PlainRayPlace>(rays.count)) {
+        const std::size_t count = rays.count;
+        for (std::uint32_t*& numbers : numbers_) numbers = scratch.take<std::uint32_t>(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
             const PlainRayStatus status = set_plain_ray(rays.rays[i], scene.bvh.frame, plain_[i], places_[i]);
             if (HWY_LIKELY(status == PlainRayStatus::plain)) {
-                plain_numbers[plain_count++] = i;
-                ++counts[plain_[i].octant];
+                const std::size_t octant = plain_[i].octant;
+                numbers_[octant][counts_[octant]++] = i;
             } else if (status == PlainRayStatus::odd) {
                 on_odd(i);
             }
-        }
-        for (std::size_t octant = 0; octant < octant_count; ++octant)
-            begin_[octant + 1] = begin_[octant] + counts[octant];
-        std::uint32_t next[octant_count];
-        std::copy_n(begin_, octant_count, next);
-        for (std::uint32_t k = 0; k < plain_count; ++k) {
-            const std::uint32_t i = plain_numbers[k];
-            numbers_[next[plain_[i].octant]++] = i;
         }
     }
 
@@ -278,24 +267,21 @@ public:
 
     template <class Sink>
     void trace(const WideBvh& bvh, Sink& sink, Scratch& scratch) const {
-        std::uint32_t most = 0;
-        for (std::size_t octant = 0; octant < octant_count; ++octant) most = std::max(most, count(octant));
+        const std::uint32_t most = *std::max_element(counts_, counts_ + octant_count);
         if (most == 0) return;
         Stream<Sink> stream(bvh, plain_, most, sink, scratch);
         for (std::uint32_t octant = 0; octant < octant_count; ++octant) {
-            if (count(octant) > 0) stream.run(numbers_ + begin_[octant], count(octant), octant);
+            if (counts_[octant] > 0) stream.run(numbers_[octant], counts_[octant], octant);
         }
     }
 
 private:
     static constexpr std::size_t octant_count = 8;
 
-    std::uint32_t count(std::size_t octant) const { return begin_[octant + 1] - begin_[octant]; }
-
     PlainRay* const plain_;
     PlainRayPlace* const places_;
-    std::uint32_t* const numbers_;
-    std::uint32_t begin_[octant_count + 1] = {};
+    std::uint32_t* numbers_[octant_count];
+    std::uint32_t counts_[octant_count] = {};
 };
 
 struct ClosestOfMany {

@@ -11,12 +11,15 @@
 namespace raywise {
 namespace {
 
-// Rays handed to a thread at once. Fewer than this are answered on the caller's thread: waking another costs more.
-constexpr std::uint64_t rays_per_task = 256;
+// Fewer rays than this are answered on the caller's thread: waking another costs more.
+constexpr std::uint64_t fewest_rays = 256;
+
+// Several blocks for each thread balance uneven work.
+constexpr std::uint64_t blocks_per_thread = 8;
 
 // Rays put in order together, where the structure takes one at a time: many more, and each part of the scene would be come to once;
 // many fewer, and their keys stay in the caches.
-constexpr std::size_t rays_per_order = 8192;
+constexpr std::uint64_t rays_per_order = 8192;
 
 // Rays read from the caller's arrays.
 struct RayBlock {
@@ -29,25 +32,29 @@ struct RayBlock {
 
 bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() > 1; }
 
-// Calls body(block) for all rays, on several threads. Returns how many of the rays held a NaN, and notes the time.
+// Calls body(block) for all rays, on several threads. Returns how many of the rays held a NaN, and notes the time. Each thread takes the
+// next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to the next.
 template <class Body>
 std::uint64_t for_blocks(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const std::size_t most = takes_many(tracer) ? tracer.accel().rays_at_a_time() : rays_per_order;
+    const std::uint64_t most = takes_many(tracer) ? tracer.accel().rays_at_a_time() : rays_per_order;
+    const std::uint64_t even = (rays.count + parallel.threads() - 1) / parallel.threads();
+    const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
+    const std::uint64_t blocks = (rays.count + size - 1) / size;
+    std::atomic<std::uint64_t> next{0};
     std::atomic<std::uint64_t> invalid{0};
-    parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
+    parallel.for_each(std::min<std::uint64_t>(parallel.threads(), blocks), [&](std::uint64_t) {
         RayBlock block;
-        std::uint64_t of_task = 0;
-        for (block.first = begin; block.first < end; block.first += most) {
+        for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
             block.scratch.reset();
-            block.size = std::min<std::uint64_t>(most, end - block.first);
+            block.first = i * size;
+            block.size = std::min(size, rays.count - block.first);
             block.rays = block.scratch.take<Ray>(block.size);
-            of_task += rays.read(block.first, block.size, block.rays);
+            invalid.fetch_add(rays.read(block.first, block.size, block.rays), std::memory_order_relaxed);
             block.skips.read(rays.skip, block.first, block.size, tracer.primitives());
             body(block);
         }
-        invalid.fetch_add(of_task, std::memory_order_relaxed);
     });
     const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     tracer.usage().rays.fetch_add(rays.count, std::memory_order_relaxed);
@@ -136,7 +143,7 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
-        parallel.for_blocks(rays.count, rays_per_task, [&](std::uint64_t begin, std::uint64_t end) {
+        parallel.for_blocks(rays.count, fewest_rays, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = begin; i < end; ++i) hits.write(first[i], found[i].size(), found[i].data());
         });
     }

@@ -9,9 +9,9 @@ namespace {
 // value_of(k) to element first + k of one component, for each k below n. The caller's arrays need not be aligned.
 template <class Value, class ValueOf>
 void store(const OutputArray& array, int component, std::uint64_t first, std::size_t n, const ValueOf& value_of) {
-    std::byte* address =
-        array.data + static_cast<std::ptrdiff_t>(first) * array.stride + component * array.component_stride;
-    for (std::size_t k = 0; k < n; ++k, address += array.stride) {
+    const std::ptrdiff_t stride = array.stride; // bytes written might be those of `array`, as far as the compiler knows
+    std::byte* address = array.data + static_cast<std::ptrdiff_t>(first) * stride + component * array.component_stride;
+    for (std::size_t k = 0; k < n; ++k, address += stride) {
         const auto value = static_cast<Value>(value_of(k));
         std::memcpy(address, &value, sizeof value);
     }
