@@ -11,7 +11,10 @@
 #define RAYWISE_ACCEL_WIDE_STREAMS_INL_H_
 #endif
 
+#include "accel/plain_ray-inl.h"
+#include "accel/wide_bvh_kernels.h"
 #include "accel/wide_traversal-inl.h"
+#include "base/scratch.h"
 
 #include <hwy/highway.h>
 
@@ -205,6 +208,48 @@ private:
     PutOff put_off_[put_off_room];
     std::size_t put_off_count_ = 0;
     std::uint32_t octant_ = 0;
+};
+
+// Many rays made ready for streams: those of each octant for one.
+class StreamRays {
+public:
+    // on_odd(i): answers a ray that no stream can take.
+    template <class OnOdd>
+    StreamRays(const WideBvhScene& scene, const UnpreparedRays& rays, Scratch& scratch, const OnOdd& on_odd)
+        : plain_(scratch.take<PlainRay>(rays.count)), places_(scratch.take<PlainRayPlace>(rays.count)) {
+        const std::size_t count = rays.count;
+        for (std::uint32_t*& numbers : numbers_) numbers = scratch.take<std::uint32_t>(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const PlainRayStatus status = set_plain_ray(rays.rays[i], scene.bvh.frame, plain_[i], places_[i]);
+            if (HWY_LIKELY(status == PlainRayStatus::plain)) {
+                const std::size_t octant = plain_[i].octant;
+                numbers_[octant][counts_[octant]++] = i;
+            } else if (status == PlainRayStatus::odd) {
+                on_odd(i);
+            }
+        }
+    }
+
+    PlainRay& plain(std::size_t i) { return plain_[i]; }
+    const PlainRayPlace& place(std::size_t i) const { return places_[i]; }
+
+    template <class Sink>
+    void trace(const WideBvh& bvh, Sink& sink, Scratch& scratch) const {
+        const std::uint32_t most = *std::max_element(counts_, counts_ + octant_count);
+        if (most == 0) return;
+        Stream<Sink> stream(bvh, plain_, most, sink, scratch);
+        for (std::uint32_t octant = 0; octant < octant_count; ++octant) {
+            if (counts_[octant] > 0) stream.run(numbers_[octant], counts_[octant], octant);
+        }
+    }
+
+private:
+    static constexpr std::size_t octant_count = 8;
+
+    PlainRay* const plain_;
+    PlainRayPlace* const places_;
+    std::uint32_t* numbers_[octant_count];
+    std::uint32_t counts_[octant_count] = {};
 };
 
 } // namespace raywise::HWY_NAMESPACE
