@@ -5,6 +5,7 @@
 #include "accel/wide_bvh.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace raywise {
@@ -20,9 +21,12 @@ public:
     void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
+    Refitted refitted(const BuildInput& input, double most) const override;
     const WideBvh& tree() const { return tree_; }
 
 private:
+    Bvh(const Primitives& primitives, WideBvh tree) : primitives_(primitives), tree_(std::move(tree)) {}
+
     const Primitives& primitives_;
     WideBvh tree_;
 };
