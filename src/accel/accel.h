@@ -56,7 +56,7 @@ class Accel;
 // What has come of the attempt to use a structure for geometry that has moved.
 struct Refitted {
     std::unique_ptr<const Accel> accel; // none: build anew
-    const char* obstacle = "";          // why there is none: completes "built anew: "
+    const char* obstacle = "";          // why there is none
     double cost = 1.0;                  // what a ray is taken to cost, over the same when the structure was built
 };
 
