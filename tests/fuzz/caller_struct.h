@@ -17,6 +17,8 @@ template <class T>
 inline constexpr std::uint32_t oldest_size = sizeof(T);
 template <>
 inline constexpr std::uint32_t oldest_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
+template <>
+inline constexpr std::uint32_t oldest_size<rw_scene_statistics> = offsetof(rw_scene_statistics, refits); // 0.1
 
 template <class T>
 class CallerStruct {

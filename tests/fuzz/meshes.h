@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace raywise::fuzz {
@@ -18,6 +19,8 @@ using Point = std::array<double, 3>;
 class Mesh {
 public:
     explicit Mesh(Input& input);
+    // The same mesh with its vertices elsewhere, for rw_scene_refit; now and then with numbers that differ, which it refuses.
+    Mesh(Input& input, std::shared_ptr<const Mesh> before);
 
     // As the caller describes it. The arrays belong to this object.
     const rw_triangles& triangles() const { return triangles_; }
@@ -37,10 +40,14 @@ public:
     void describe() const; // on stderr
 
 private:
+    void describe_vertices(Input& input, const std::vector<Point>& points);
+    void describe_indices(Input& input, const std::vector<std::array<std::uint64_t, 3>>& triangles);
+    void pack();
     void make_arrays(Input& input);
     void spoil(Input& input);
     void judge();
 
+    std::shared_ptr<const Mesh> before_; // its indices may be in use
     rw_triangles triangles_{};
     InputArray vertex_array_;
     InputArray index_array_;
