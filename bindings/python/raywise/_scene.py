@@ -302,9 +302,7 @@ class Scene(Queries):
         build = Progress(threads, progress)
         address = ctypes.c_void_p()
         structs = (c.rw_triangles * len(described))(*(each.struct for each in described))
-        status = lib.rw_scene_refit(
-            reference.address, structs, len(described), build.options, ctypes.byref(address)
-        )
+        status = lib.rw_scene_refit(reference.address, structs, len(described), build.options, ctypes.byref(address))
         try:
             build.finish(status)
         except IndexOutOfRange as error:
