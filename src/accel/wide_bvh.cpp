@@ -74,12 +74,14 @@ public:
         bvh_.words = make_words(tree_.references.size());
 
         top_.emplace_back();
-        make_top(0, extents_.of(tree_.root));
+        LeafWriter leaves(bvh_, input_.primitives);
+        make_top(0, extents_.of(tree_.root), leaves);
         input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
             Job& job = jobs_[i];
             job.nodes.reserve(job.root.count / 16 + 1);
             job.nodes.emplace_back();
-            make_node(job.nodes, 0, job.root);
+            LeafWriter leaves_of_job(bvh_, input_.primitives);
+            make_node(job.nodes, 0, job.root, leaves_of_job);
             const double part =
                 static_cast<double>(done_ += job.root.count) / static_cast<double>(tree_.references.size());
             input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
@@ -99,32 +101,32 @@ private:
         std::vector<WideNode> nodes;
     };
 
-    void make_top(std::uint32_t index, const Subtree& subtree) {
+    void make_top(std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         top_[index] = boxes_of(children);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             const Subtree& child = children[i];
             if (is_leaf(child)) {
-                set_leaf(top_[index], i, child);
+                set_leaf(top_[index], i, child, leaves);
             } else if (child.count <= job_size) {
                 jobs_.push_back({child, index, i, {}});
             } else {
                 const auto next = static_cast<std::uint32_t>(top_.size());
                 top_.emplace_back();
                 top_[index].child[i] = WideReference::node(next);
-                make_top(next, child);
+                make_top(next, child, leaves);
             }
         }
     }
 
     // Siblings lie side by side.
-    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree) {
+    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         nodes[index] = boxes_of(children);
         auto next = static_cast<std::uint32_t>(nodes.size());
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             if (is_leaf(children[i])) {
-                set_leaf(nodes[index], i, children[i]);
+                set_leaf(nodes[index], i, children[i], leaves);
             } else {
                 nodes[index].child[i] = WideReference::node(next++);
             }
@@ -132,7 +134,7 @@ private:
         nodes.resize(next);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             const WideReference child = nodes[index].child[i];
-            if (!child.is_leaf()) make_node(nodes, child.index(), children[i]);
+            if (!child.is_leaf()) make_node(nodes, child.index(), children[i], leaves);
         }
     }
 
@@ -181,11 +183,9 @@ private:
         return node;
     }
 
-    void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf) {
+    void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf, LeafWriter& leaves) {
         node.child[i] = WideReference::leaf(leaf.first, leaf.count);
-        if (!write_leaf(bvh_, input_.primitives, leaf.first, &tree_.references[leaf.first], leaf.count,
-                        [](const Vec3&) {}))
-            exact_ = false;
+        if (!leaves.write(leaf.first, &tree_.references[leaf.first], leaf.count).exact) exact_ = false;
     }
 
     void assemble() {

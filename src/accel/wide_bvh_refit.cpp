@@ -44,6 +44,7 @@ public:
 private:
     // From the last node to the first, so that children come before their parents.
     void fit_task(std::size_t begin, std::size_t end) {
+        LeafWriter leaves(bvh_, primitives_);
         std::vector<std::uint32_t> leaf;
         bool exact = true;
         for (std::size_t n = end; n-- > begin;) {
@@ -53,7 +54,7 @@ private:
                 node.child[i] = old.child[i];
                 set_absent(node, i);
                 if (!is_absent(old, i) && old.child[i].is_leaf())
-                    exact = fit_leaf(node, i, old.child[i], leaf) && exact;
+                    exact = fit_leaf(node, i, old.child[i], leaf, leaves) && exact;
             }
             is_fit_[n] = fit_inner_children(n, end) ? 1 : 0;
         }
@@ -76,18 +77,17 @@ private:
     }
 
     // Returns WideBvh::exact for this leaf.
-    bool fit_leaf(WideNode& node, std::uint32_t i, WideReference old, std::vector<std::uint32_t>& leaf) {
+    bool fit_leaf(WideNode& node, std::uint32_t i, WideReference old, std::vector<std::uint32_t>& leaf,
+                  LeafWriter& leaves) {
         read_leaf(old, leaf);
         const auto count = static_cast<std::uint32_t>(leaf.size());
         BlockWord* const words = bvh_.words.data() + words_per_triangle * old.index();
         std::fill(words + words_per_triangle * count, words + words_per_triangle * old.triangles(), BlockWord{0.0f});
         node.child[i] = count == 0 ? WideReference::node(0) : WideReference::leaf(old.index(), count);
         if (count == 0) return true;
-        Box box;
-        const bool exact = write_leaf(bvh_, primitives_, old.index(), leaf.data(), count,
-                                      [&](const Vec3& corner) { box.extend(corner); });
-        set_box(node, i, box.lower, box.upper);
-        return exact;
+        const WrittenLeaf written = leaves.write(old.index(), leaf.data(), count);
+        set_box(node, i, written.box.lower, written.box.upper);
+        return written.exact;
     }
 
     // The primitives of a leaf of the other tree that can be hit now.

@@ -45,29 +45,34 @@ inline PageArray<BlockWord> make_words(std::size_t triangles) {
     return result;
 }
 
-// Writes the blocks of a leaf that begins at triangle `first` and has `count` primitives. Calls visit(corner) for each corner, in the
-// coordinates of the frame. Returns whether frame.from_frame gives all of them back.
-template <class Visit>
-bool write_leaf(WideBvh& bvh, const Primitives& primitives, std::uint32_t first, const std::uint32_t* leaf,
-                std::uint32_t count, const Visit& visit) {
-    bool exact = true;
-    for (std::uint32_t begin = 0; begin < count; begin += block_size) {
-        const std::uint32_t n = std::min(block_size, count - begin);
-        BlockWord* const block = bvh.words.data() + words_per_triangle * (std::size_t{first} + begin);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t primitive = leaf[begin + i];
-            const Corners corners = primitives.corners(primitive);
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const Vec3 p = bvh.frame.to_frame(corners[k]);
-                visit(p);
-                for (int axis = 0; axis < 3; ++axis)
-                    block[(3 * k + static_cast<std::uint32_t>(axis)) * n + i].coordinate = static_cast<float>(p[axis]);
-            }
-            block[9 * n + i].primitive = primitive;
-            exact = exact && BlockTriangle{block, n, i}.corners(bvh.frame) == corners;
-        }
-    }
-    return exact;
-}
+// What is found out about a leaf while it is written.
+struct WrittenLeaf {
+    bool exact; // whether frame.from_frame gives every corner back
+    Box box;    // in the coordinates of the frame
+};
+
+// Writes the leaves of a tree that has its frame and room for its words. Each thread needs one of its own.
+class LeafWriter {
+public:
+    LeafWriter(WideBvh& bvh, const Primitives& primitives);
+
+    // A leaf of `count` primitives that begins at triangle `first`.
+    WrittenLeaf write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
+
+private:
+    bool write_floats(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count, WrittenLeaf& written);
+    const TriangleMesh& mesh_of(std::uint32_t primitive);
+
+    BlockWord* const words_;
+    const Primitives& primitives_;
+    const SceneFrame frame_;
+    // The scale as float32, where that and its inverse are normal numbers and the frame does not move anything; else zero.
+    float scale_ = 0.0f;
+    float inverse_scale_ = 0.0f;
+    // The mesh looked at last, and the numbers of its triangles: neighbours are of one mesh, mostly.
+    const TriangleMesh* mesh_ = nullptr;
+    std::uint32_t mesh_first_ = 0;
+    std::uint32_t mesh_count_ = 0;
+};
 
 } // namespace raywise
