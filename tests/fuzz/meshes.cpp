@@ -158,7 +158,7 @@ Mesh::Mesh(Input& input, std::shared_ptr<const Mesh> before) : before_(std::move
     std::vector<Point> points = move_points(input, before_->values_);
     const bool was_indexed = before_->triangles_.indices.data != nullptr;
     std::vector<Triangle> triangles = before_->corners_;
-    bool is_indexed = was_indexed && input.one_in(2);
+    const bool is_indexed = was_indexed && input.one_in(2);
     if (is_indexed && !triangles.empty() && input.one_in(32)) { // another number of triangles
         triangles.pop_back();
         outcome_.fails_if(true, RW_ERROR_INVALID_ARGUMENT);
@@ -177,6 +177,8 @@ Mesh::Mesh(Input& input, std::shared_ptr<const Mesh> before) : before_(std::move
     if (is_indexed) {
         describe_indices(input, triangles);
     } else {
+        triangles_.indices = before_->triangles_.indices;
+        keeps_indices_ = was_indexed;
         corners_ = std::move(triangles);
     }
     pack();

@@ -24,6 +24,12 @@ public:
 
     // As the caller describes it. The arrays belong to this object.
     const rw_triangles& triangles() const { return triangles_; }
+    // The same for rw_scene_refit, which may be without the indices that the scene has already.
+    rw_triangles moved_triangles() const {
+        rw_triangles moved = triangles_;
+        if (keeps_indices_) moved.indices.data = nullptr;
+        return moved;
+    }
     // The same numbers of the same type, packed, always to be copied: what the judge gets.
     rw_triangles packed() const;
 
@@ -59,6 +65,7 @@ private:
     std::vector<double> packed_doubles_;
     std::vector<std::uint64_t> packed_indices_;
     bool is_described_wrongly_ = false;
+    bool keeps_indices_ = false;
     Outcome outcome_{"add a mesh"};
 };
 

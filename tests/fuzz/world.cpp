@@ -294,7 +294,7 @@ void World::refit() {
     for (const auto& mesh : scene->meshes) {
         moved.meshes.push_back(std::make_shared<Mesh>(input_, mesh));
         outcome.add(moved.meshes.back()->outcome());
-        described.push_back(moved.meshes.back()->triangles());
+        described.push_back(moved.meshes.back()->moved_triangles());
     }
     if (input_.one_in(32)) {
         if (!described.empty() && input_.one_in(2)) {
