@@ -100,17 +100,17 @@ OutputArray read_output(const rw_output& output, std::uint64_t count, int compon
     return result;
 }
 
-TriangleArrays read_triangles(const rw_triangles& triangles) {
+TriangleArrays read_triangles(const rw_triangles& triangles, const std::string& name) {
     if ((triangles.flags & ~(RW_TRIANGLES_SHARED | RW_TRIANGLES_SKIP_INVALID)) != 0) {
-        throw bad_argument("triangles: flags " + std::to_string(triangles.flags) + " has an unknown bit");
+        throw bad_argument(name + ": flags " + std::to_string(triangles.flags) + " has an unknown bit");
     }
     TriangleArrays arrays;
     arrays.vertex_count = triangles.vertex_count;
     arrays.triangle_count = triangles.triangle_count;
     arrays.vertices =
-        read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, "triangles.vertices");
+        read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, name + ".vertices");
     arrays.indices =
-        read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, "triangles.indices");
+        read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, name + ".indices");
     return arrays;
 }
 

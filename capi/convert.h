@@ -22,6 +22,8 @@ template <class T>
 inline constexpr std::size_t previous_size = sizeof(T);
 template <>
 inline constexpr std::size_t previous_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
+template <>
+inline constexpr std::size_t previous_size<rw_scene_statistics> = offsetof(rw_scene_statistics, refits); // 0.1
 
 // The struct_size of a struct that begins with one. A larger one, of a newer program, is fine as long as what this library does
 // not know is zero.
@@ -84,7 +86,24 @@ enum class OutputKind {
 OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
                         const std::string& name);
 
-TriangleArrays read_triangles(const rw_triangles& triangles);
+// name: of the struct, in messages.
+TriangleArrays read_triangles(const rw_triangles& triangles, const std::string& name = "triangles");
+// Calls visit(mesh, name) for each of the caller's structs, which all have the size of the first.
+template <class Visit>
+void for_each_mesh(const rw_triangles* meshes, std::uint32_t mesh_count, const Visit& visit) {
+    if (mesh_count > 0) required(meshes, "meshes");
+    const auto* bytes = reinterpret_cast<const std::byte*>(meshes);
+    for (std::uint32_t i = 0; i < mesh_count; ++i) {
+        const std::string name = "meshes[" + std::to_string(i) + "]";
+        // Elements are as far apart as the caller's struct is large, which a newer program's may be.
+        const auto* element = reinterpret_cast<const rw_triangles*>(bytes + std::size_t{i} * meshes->struct_size);
+        const rw_triangles mesh = read_struct(element, name.c_str());
+        if (mesh.struct_size != meshes->struct_size) {
+            throw Error(Status::ERROR_INVALID_ARGUMENT, name + ": struct_size differs from that of meshes[0]");
+        }
+        visit(mesh, name);
+    }
+}
 RayArrays read_rays(const rw_rays* rays, const char* name);
 HitArrays read_hits(const rw_hits* hits, std::uint64_t count);
 // The caller's memory, seen as the library's own struct, which has the same members: eight float64 both. Not a copy, because loading

@@ -10,18 +10,9 @@ namespace {
 Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
                  const rw_once_options& options, const rw_query_options& query) {
     Scene scene(options.profile != nullptr ? options.profile->value : std::make_shared<const Profile>(find_profile()));
-    if (mesh_count > 0) required(meshes, "meshes");
-    const auto* bytes = reinterpret_cast<const std::byte*>(meshes);
-    for (std::uint32_t i = 0; i < mesh_count; ++i) {
-        const std::string name = "meshes[" + std::to_string(i) + "]";
-        // Elements are as far apart as the caller's struct is large, which a newer program's may be.
-        const auto* element = reinterpret_cast<const rw_triangles*>(bytes + std::size_t{i} * meshes->struct_size);
-        const rw_triangles mesh = read_struct(element, name.c_str());
-        if (mesh.struct_size != meshes->struct_size) {
-            throw Error(Status::ERROR_INVALID_ARGUMENT, name + ": struct_size differs from that of meshes[0]");
-        }
+    for_each_mesh(meshes, mesh_count, [&](const rw_triangles& mesh, const std::string&) {
         scene.add_triangles(read_triangles(mesh), false, (mesh.flags & RW_TRIANGLES_SKIP_INVALID) != 0);
-    }
+    });
     const RayArrays arrays = read_rays(rays, "rays");
     Workload workload = read_workload(RW_RAYS_UNKNOWN, options.kind, "options");
     workload.rays = std::max<std::uint64_t>(arrays.count, 1);

@@ -85,4 +85,20 @@ std::int32_t rw_scene_commit(rw_scene* scene, const rw_commit_options* options) 
     });
 }
 
+std::int32_t rw_scene_refit(const rw_scene* scene, const rw_triangles* meshes, std::uint32_t mesh_count,
+                            const rw_commit_options* options, rw_scene** refitted) {
+    return guard([&] {
+        const Scene& s = *required(scene, "scene").value;
+        rw_scene*& out = required(refitted, "refitted");
+        const rw_commit_options o = read_optional_struct(options, "options");
+        std::vector<MovedMesh> moved;
+        for_each_mesh(meshes, mesh_count, [&](const rw_triangles& mesh, const std::string& name) {
+            moved.push_back({read_triangles(mesh, name), (mesh.flags & RW_TRIANGLES_SHARED) == 0,
+                             (mesh.flags & RW_TRIANGLES_SKIP_INVALID) != 0, name + "."});
+        });
+        Progress progress(read_progress(o.progress, o.progress_user));
+        out = new rw_scene(s.refitted(moved, read_parallel(o.threads, o.parallel_for, o.parallel_user), progress));
+    });
+}
+
 } // extern "C"

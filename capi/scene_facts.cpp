@@ -53,6 +53,7 @@ std::int32_t rw_scene_get_statistics(const rw_scene* scene, rw_scene_statistics*
         facts.rays = tracer.usage().rays.load(std::memory_order_relaxed);
         facts.invalid_rays = tracer.usage().invalid_rays.load(std::memory_order_relaxed);
         facts.rays_ns = static_cast<double>(tracer.usage().batch_ns.load(std::memory_order_relaxed));
+        facts.refits = s.plan().refit ? s.plan().refit->refits : 0;
         write_struct(statistics, "statistics", facts);
     });
 }

@@ -75,6 +75,15 @@ struct UnpreparedRays {
     }
 };
 
+class Accel;
+
+// What has come of the attempt to use a structure for geometry that has moved.
+struct Refitted {
+    std::unique_ptr<const Accel> accel; // none: build anew
+    const char* obstacle = "";          // why there is none
+    double cost = 1.0;                  // what a ray is taken to cost, over the same when the structure was built
+};
+
 // A built structure. Immutable: any number of threads may ask at the same time.
 //
 // The answers are those of the linear scan, bit for bit. A structure only decides which primitives to test, with
@@ -106,6 +115,14 @@ public:
 
     // Memory of the structure.
     virtual std::size_t bytes() const = 0;
+
+    // The same structure around primitives that have moved: input.primitives have the numbers of those it was built from, of which
+    // only is_hittable() is asked. most: the cost at which building anew pays; see Refitted::cost.
+    virtual Refitted refitted(const BuildInput& input, double most) const {
+        static_cast<void>(input);
+        static_cast<void>(most);
+        return {nullptr, "the structure cannot be refitted", 1.0};
+    }
 };
 
 // Makes a structure from its name; the one place that knows all classes. Throws Error(ERROR_CANCELLED) when the caller

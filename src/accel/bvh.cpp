@@ -1,6 +1,11 @@
 #include "accel/bvh.h"
 
 #include "accel/wide_bvh_kernels.h"
+#include "accel/wide_bvh_refit.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace raywise {
 namespace {
@@ -36,6 +41,15 @@ void Bvh::any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) co
 
 void Bvh::all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const {
     all_hits({tree_, primitives_}, ray, hits);
+}
+
+Refitted Bvh::refitted(const BuildInput& input, double most) const {
+    std::optional<WideBvh> tree = refit({tree_, primitives_}, input);
+    if (!tree) return {nullptr, "a triangle that could not be hit before is not in the tree", 1.0};
+    // Where nothing can be hit there is no cost.
+    const double cost = tree->nodes.empty() ? 1.0 : tree_cost(*tree, input.parallel) / tree->built_cost;
+    if (cost > most) return {nullptr, "the boxes of the tree overlap too much", cost};
+    return {std::unique_ptr<const Accel>(new Bvh(input.primitives, std::move(*tree))), "", cost};
 }
 
 } // namespace raywise

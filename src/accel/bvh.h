@@ -5,6 +5,7 @@
 #include "accel/wide_bvh.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace raywise {
@@ -23,9 +24,12 @@ public:
     void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
+    Refitted refitted(const BuildInput& input, double most) const override;
     const WideBvh& tree() const { return tree_; }
 
 private:
+    Bvh(const Primitives& primitives, WideBvh tree) : primitives_(primitives), tree_(std::move(tree)) {}
+
     const Primitives& primitives_;
     WideBvh tree_;
 };

@@ -1,9 +1,12 @@
 // From the binary tree to the wide one: a node takes in its descendants, the largest first, until it has eight children.
 #include "accel/wide_bvh.h"
 
+#include "accel/wide_bvh_write.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -68,23 +71,24 @@ public:
     WideBvh run() {
         if (tree_.empty()) return std::move(bvh_);
         bvh_.frame = SceneFrame(input_.primitives.bounds());
-        const std::size_t words = words_per_triangle * tree_.references.size();
-        bvh_.words = PageArray<BlockWord>(words + block_size);
-        std::fill_n(bvh_.words.data() + words, block_size, BlockWord{0.0f});
+        bvh_.words = make_words(tree_.references.size());
 
         top_.emplace_back();
-        make_top(0, extents_.of(tree_.root));
+        LeafWriter leaves(bvh_, input_.primitives);
+        make_top(0, extents_.of(tree_.root), leaves);
         input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
             Job& job = jobs_[i];
             job.nodes.reserve(job.root.count / 16 + 1);
             job.nodes.emplace_back();
-            make_node(job.nodes, 0, job.root);
+            LeafWriter leaves_of_job(bvh_, input_.primitives);
+            make_node(job.nodes, 0, job.root, leaves_of_job);
             const double part =
                 static_cast<double>(done_ += job.root.count) / static_cast<double>(tree_.references.size());
             input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
         });
         assemble();
         bvh_.exact = exact_;
+        bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
     }
 
@@ -97,32 +101,32 @@ private:
         std::vector<WideNode> nodes;
     };
 
-    void make_top(std::uint32_t index, const Subtree& subtree) {
+    void make_top(std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         top_[index] = boxes_of(children);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             const Subtree& child = children[i];
             if (is_leaf(child)) {
-                set_leaf(top_[index], i, child);
+                set_leaf(top_[index], i, child, leaves);
             } else if (child.count <= job_size) {
                 jobs_.push_back({child, index, i, {}});
             } else {
                 const auto next = static_cast<std::uint32_t>(top_.size());
                 top_.emplace_back();
                 top_[index].child[i] = WideReference::node(next);
-                make_top(next, child);
+                make_top(next, child, leaves);
             }
         }
     }
 
     // Siblings lie side by side.
-    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree) {
+    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         nodes[index] = boxes_of(children);
         auto next = static_cast<std::uint32_t>(nodes.size());
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             if (is_leaf(children[i])) {
-                set_leaf(nodes[index], i, children[i]);
+                set_leaf(nodes[index], i, children[i], leaves);
             } else {
                 nodes[index].child[i] = WideReference::node(next++);
             }
@@ -130,7 +134,7 @@ private:
         nodes.resize(next);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             const WideReference child = nodes[index].child[i];
-            if (!child.is_leaf()) make_node(nodes, child.index(), children[i]);
+            if (!child.is_leaf()) make_node(nodes, child.index(), children[i], leaves);
         }
     }
 
@@ -168,45 +172,20 @@ private:
     WideNode boxes_of(const Children& children) const {
         WideNode node{};
         for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                node.planes[axis][0][i] = absent_plane;
-                node.planes[axis][1][i] = -absent_plane;
-                if (i >= children.size()) continue;
-                // The tree's boxes are relative to the frame's center already.
-                const auto& planes = children[i].node->planes;
-                node.planes[axis][0][i] = round_down(static_cast<double>(planes[0][axis]) * bvh_.frame.scale());
-                node.planes[axis][1][i] = round_up(static_cast<double>(planes[1][axis]) * bvh_.frame.scale());
-            }
+            set_absent(node, i);
+            if (i >= children.size()) continue;
+            // The tree's boxes are relative to the frame's center already.
+            const auto& planes = children[i].node->planes;
+            const Vec3f lower(planes[0][0], planes[0][1], planes[0][2]);
+            const Vec3f upper(planes[1][0], planes[1][1], planes[1][2]);
+            set_box(node, i, bvh_.frame.scale() * Vec3(lower), bvh_.frame.scale() * Vec3(upper));
         }
         return node;
     }
 
-    void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf) {
+    void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf, LeafWriter& leaves) {
         node.child[i] = WideReference::leaf(leaf.first, leaf.count);
-        bool exact = true;
-        for (std::uint32_t begin = 0; begin < leaf.count; begin += block_size) {
-            const std::uint32_t n = std::min(block_size, leaf.count - begin);
-            exact = gather_block(leaf.first + begin, n) && exact;
-        }
-        if (!exact) exact_ = false;
-    }
-
-    // Returns whether the coordinates can be had back.
-    bool gather_block(std::uint32_t first, std::uint32_t n) {
-        BlockWord* const block = bvh_.words.data() + words_per_triangle * first;
-        bool exact = true;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t primitive = tree_.references[first + i];
-            const Corners corners = input_.primitives.corners(primitive);
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const Vec3 p = bvh_.frame.to_frame(corners[k]);
-                for (int axis = 0; axis < 3; ++axis)
-                    block[(3 * k + static_cast<std::uint32_t>(axis)) * n + i].coordinate = static_cast<float>(p[axis]);
-            }
-            block[9 * n + i].primitive = primitive;
-            exact = exact && BlockTriangle{block, n, i}.corners(bvh_.frame) == corners;
-        }
-        return exact;
+        if (!leaves.write(leaf.first, &tree_.references[leaf.first], leaf.count).exact) exact_ = false;
     }
 
     void assemble() {
@@ -243,7 +222,42 @@ private:
     std::atomic<std::uint64_t> done_{0};
 };
 
+// Nodes whose costs are added up in one go: the same number whatever the threads, so that the sum is the same too.
+constexpr std::size_t nodes_per_sum = 4096;
+
+// Of the box of a child, in the coordinates of the frame.
+double half_area(const WideNode& node, std::uint32_t i) {
+    double size[3];
+    for (int axis = 0; axis < 3; ++axis)
+        size[axis] = static_cast<double>(node.planes[axis][1][i]) - static_cast<double>(node.planes[axis][0][i]);
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+}
+
 } // namespace
+
+double tree_cost(const WideBvh& bvh, const Parallel& parallel) {
+    if (bvh.nodes.empty()) return 0.0;
+    std::vector<double> sums((bvh.nodes.size() + nodes_per_sum - 1) / nodes_per_sum);
+    parallel.for_each(sums.size(), [&](std::uint64_t k) {
+        double sum = 0.0;
+        const std::size_t end = std::min(bvh.nodes.size(), (k + 1) * nodes_per_sum);
+        for (std::size_t n = k * nodes_per_sum; n < end; ++n) {
+            const WideNode& node = bvh.nodes[n];
+            for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
+                if (is_absent(node, i)) continue;
+                const WideReference child = node.child[i];
+                const std::uint32_t blocks = (child.triangles() + (block_size - 1)) / block_size;
+                sum += half_area(node, i) * (child.is_leaf() ? blocks : 1.0);
+            }
+        }
+        sums[k] = sum;
+    });
+    WideNode whole;
+    set_box_around(whole, 0, bvh.nodes[0]);
+    const double area = half_area(whole, 0);
+    const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+    return area > 0.0 ? 1.0 + sum / area : 1.0;
+}
 
 WideBvh widen(const BvhTree& tree, const BuildInput& input, double progress_begin) {
     return Widener(tree, input, progress_begin).run();

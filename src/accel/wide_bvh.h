@@ -6,6 +6,7 @@
 #include "accel/bvh_build.h"
 #include "accel/scene_frame.h"
 #include "base/page_array.h"
+#include "base/parallel.h"
 #include "geometry/primitives.h"
 
 #include <cstddef>
@@ -56,11 +57,13 @@ union BlockWord {
     std::uint32_t primitive;
 };
 
+// In its leaves are the primitives that can be hit, all of them and no others.
 struct WideBvh {
     SceneFrame frame;
-    PageArray<WideNode> nodes;  // the root first; none when nothing can be hit
+    PageArray<WideNode> nodes;  // the root first, every other one behind its parent; none when nothing can be hit
     PageArray<BlockWord> words; // and as many more as a vector reads beyond the last block
     bool exact = false;         // whether frame.from_frame gives every corner back without loss
+    double built_cost = 0.0;    // tree_cost() when it was built; geometry may have moved since (wide_bvh_refit.h)
 
     std::size_t bytes() const { return nodes.bytes() + words.bytes(); }
     // The block that begins with a triangle.
@@ -84,6 +87,10 @@ private:
                                  static_cast<double>(x[2 * n].coordinate)});
     }
 };
+
+// What a ray that meets the scene is taken to cost, in steps from node to node, a block of triangles for one: the surface area
+// heuristic over the whole tree. Zero for one without anything in it.
+double tree_cost(const WideBvh& bvh, const Parallel& parallel);
 
 // Makes it of a binary tree. Reports progress from progress_begin to 1.
 WideBvh widen(const BvhTree& tree, const BuildInput& input, double progress_begin);

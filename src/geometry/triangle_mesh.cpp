@@ -44,6 +44,21 @@ bool is_usable(const Vec3& p) {
     return std::fabs(p.x) <= limit && std::fabs(p.y) <= limit && std::fabs(p.z) <= limit; // false for NaN
 }
 
+// `count` elements of three components, one after the other.
+std::vector<std::byte> packed(const StridedArray& array, std::uint64_t count) {
+    const std::size_t size = size_of(array.scalar);
+    if (array.is_packed() && count > 0) return {array.data, array.data + count * 3 * size};
+    std::vector<std::byte> copy(count * 3 * size);
+    std::byte* out = copy.data();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
+        for (int component = 0; component < 3; ++component, out += size) {
+            std::memcpy(out, element + component * array.component_stride, size);
+        }
+    }
+    return copy;
+}
+
 } // namespace
 
 double StridedArray::number(std::uint64_t element, int component) const {
@@ -51,25 +66,43 @@ double StridedArray::number(std::uint64_t element, int component) const {
     return scalar == Scalar::float32 ? static_cast<double>(load<float>(address)) : load<double>(address);
 }
 
-TriangleMesh::TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid) : arrays_(arrays) {
-    check(skip_invalid);
+TriangleMesh::TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid, const std::string& name)
+    : arrays_(arrays) {
+    check(skip_invalid, name);
     if (copy) make_copy();
 }
 
-void TriangleMesh::check(bool skip_invalid) {
+TriangleMesh::TriangleMesh(const TriangleMesh& before, const TriangleArrays& arrays, bool copy, bool skip_invalid,
+                           const std::string& name)
+    : arrays_(arrays) {
+    if (arrays.indices.data == nullptr && before.arrays_.indices.data != nullptr) {
+        if (arrays.vertex_count != before.arrays_.vertex_count) {
+            throw Error(Status::ERROR_INVALID_ARGUMENT, name + "vertex_count: it is " +
+                                                            std::to_string(arrays.vertex_count) +
+                                                            ", the mesh whose indices are kept has " +
+                                                            std::to_string(before.arrays_.vertex_count) + " vertices");
+        }
+        arrays_.indices = before.arrays_.indices;
+        index_copy_ = before.index_copy_;
+    }
+    check(skip_invalid, name);
+    if (copy) make_copy();
+}
+
+void TriangleMesh::check(bool skip_invalid, const std::string& name) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     if (arrays_.vertex_count > most) {
         throw Error(Status::ERROR_TOO_MANY,
-                    "vertex_count: " + std::to_string(arrays_.vertex_count) + " is above 4294967295");
+                    name + "vertex_count: " + std::to_string(arrays_.vertex_count) + " is above 4294967295");
     }
     if (arrays_.triangle_count >= most) {
         throw Error(Status::ERROR_TOO_MANY,
-                    "triangle_count: " + std::to_string(arrays_.triangle_count) + " is above 4294967294");
+                    name + "triangle_count: " + std::to_string(arrays_.triangle_count) + " is above 4294967294");
     }
     const bool indexed = arrays_.indices.data != nullptr;
     if (!indexed && arrays_.vertex_count != 3 * arrays_.triangle_count) {
         throw Error(Status::ERROR_INVALID_ARGUMENT,
-                    "indices: NULL needs 3 vertices per triangle, but vertex_count is " +
+                    name + "indices: NULL needs 3 vertices per triangle, but vertex_count is " +
                         std::to_string(arrays_.vertex_count) + " and triangle_count " +
                         std::to_string(arrays_.triangle_count));
     }
@@ -82,7 +115,7 @@ void TriangleMesh::check(bool skip_invalid) {
             const Vec3 p = arrays_.vertices.vec3(i);
             if (is_usable(p)) continue;
             const VertexFault fault = fault_of(p, i);
-            throw Error(fault.status, "vertices: " + fault.text);
+            throw Error(fault.status, name + "vertices: " + fault.text);
         }
     }
     if (indexed && !indices_are_in_range()) {
@@ -90,7 +123,7 @@ void TriangleMesh::check(bool skip_invalid) {
             const std::uint64_t index = arrays_.indices.index(i / 3, static_cast<int>(i % 3));
             if (index < arrays_.vertex_count) continue;
             throw Error(Status::ERROR_INDEX_OUT_OF_RANGE,
-                        "triangle " + std::to_string(i / 3) + ": index " + std::to_string(index) +
+                        name + "triangle " + std::to_string(i / 3) + ": index " + std::to_string(index) +
                             " is out of range, the mesh has " + std::to_string(arrays_.vertex_count) + " vertices");
         }
     }
@@ -132,45 +165,33 @@ void TriangleMesh::find_invalid() {
 }
 
 void TriangleMesh::make_copy() {
-    const auto pack = [](StridedArray& array, std::uint64_t count, std::vector<std::byte>& copy) {
-        const std::size_t size = size_of(array.scalar);
-        if (array.is_packed() && count > 0) {
-            copy.assign(array.data, array.data + count * 3 * size);
-        } else {
-            copy.resize(count * 3 * size);
-            std::byte* out = copy.data();
-            for (std::uint64_t i = 0; i < count; ++i) {
-                const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
-                for (int component = 0; component < 3; ++component, out += size) {
-                    std::memcpy(out, element + component * array.component_stride, size);
-                }
-            }
-        }
-        array.data = copy.data();
-        array.component_stride = static_cast<std::ptrdiff_t>(size);
-        array.stride = 3 * array.component_stride;
-    };
-    if (arrays_.indices.data != nullptr) {
-        if (arrays_.indices.scalar == Scalar::uint32) {
-            pack(arrays_.indices, arrays_.triangle_count, index_copy_);
-        } else {
-            // 32 bits hold every valid index. Invalid ones may be cut off: their triangles are never looked at.
-            std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
-            std::byte* out = copy.data();
-            for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
-                for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {
-                    const auto index = static_cast<std::uint32_t>(arrays_.indices.index(i, corner));
-                    std::memcpy(out, &index, sizeof index);
-                }
-            }
-            index_copy_ = std::move(copy);
-        }
-        arrays_.indices = {index_copy_.data(), 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), Scalar::uint32};
+    if (arrays_.indices.data != nullptr && index_copy_ == nullptr) {
+        auto copy = std::make_shared<const std::vector<std::byte>>(packed_indices());
+        arrays_.indices = {copy->data(), 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), Scalar::uint32};
+        index_copy_ = std::move(copy);
         // A null pointer means "no indices"; an empty vector's may be null.
         static const std::byte none{};
         if (arrays_.indices.data == nullptr) arrays_.indices.data = &none;
     }
-    pack(arrays_.vertices, arrays_.vertex_count, vertex_copy_);
+    vertex_copy_ = packed(arrays_.vertices, arrays_.vertex_count);
+    const auto size = static_cast<std::ptrdiff_t>(size_of(arrays_.vertices.scalar));
+    arrays_.vertices = {vertex_copy_.data(), 3 * size, size, arrays_.vertices.scalar};
+}
+
+std::vector<std::byte> TriangleMesh::packed_indices() const {
+    const StridedArray& indices = arrays_.indices;
+    if (indices.scalar == Scalar::uint32) return packed(indices, arrays_.triangle_count);
+    // 32 bits hold every valid index, and none is as large as the one that stands for all others.
+    constexpr std::uint64_t invalid = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
+    std::byte* out = copy.data();
+    for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
+        for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {
+            const auto index = static_cast<std::uint32_t>(std::min(indices.index(i, corner), invalid));
+            std::memcpy(out, &index, sizeof index);
+        }
+    }
+    return copy;
 }
 
 } // namespace raywise

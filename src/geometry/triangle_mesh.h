@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace raywise {
@@ -86,8 +87,12 @@ using CornersF = std::array<Vec3f, 3>;
 class TriangleMesh {
 public:
     // Checks every vertex and index. Throws Error with ERROR_NOT_FINITE, ERROR_COORDINATE_RANGE, ERROR_INDEX_OUT_OF_RANGE or
-    // ERROR_TOO_MANY, naming the element, unless skip_invalid. copy: keep packed copies instead of the caller's arrays.
-    TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid);
+    // ERROR_TOO_MANY, naming the element, unless skip_invalid. copy: keep packed copies instead of the caller's arrays. name: where
+    // the arrays are in the caller's eyes, in front of every message.
+    TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid, const std::string& name = {});
+    // The same for a mesh whose vertices have moved: without indices it has those of `before`, and then has to have as many vertices.
+    TriangleMesh(const TriangleMesh& before, const TriangleArrays& arrays, bool copy, bool skip_invalid,
+                 const std::string& name = {});
     TriangleMesh(const TriangleMesh&) = delete; // its arrays may point into itself
     TriangleMesh& operator=(const TriangleMesh&) = delete;
 
@@ -110,8 +115,10 @@ public:
     bool is_valid(std::uint32_t triangle) const { return invalid_.empty() || !invalid_[triangle]; }
     std::uint64_t invalid_count() const { return invalid_count_; }
 
-    // Memory of the copies.
-    std::size_t bytes() const { return vertex_copy_.size() + index_copy_.size() + invalid_.size() / 8; }
+    // Memory of the copies; that of indices is counted by each mesh that has them.
+    std::size_t bytes() const {
+        return vertex_copy_.size() + (index_copy_ ? index_copy_->size() : 0) + invalid_.size() / 8;
+    }
 
 private:
     std::array<std::uint64_t, 3> vertices_of(std::uint32_t triangle) const {
@@ -122,16 +129,17 @@ private:
         return {arrays_.indices.index(triangle, 0), arrays_.indices.index(triangle, 1),
                 arrays_.indices.index(triangle, 2)};
     }
-    void check(bool skip_invalid);
+    void check(bool skip_invalid, const std::string& name);
     bool vertices_are_usable() const;
     bool indices_are_in_range() const;
     void find_invalid();
     void make_copy();
+    std::vector<std::byte> packed_indices() const;
 
     TriangleArrays arrays_;
     std::vector<std::byte> vertex_copy_;
-    std::vector<std::byte> index_copy_;
-    std::vector<bool> invalid_; // empty when all are valid
+    std::shared_ptr<const std::vector<std::byte>> index_copy_; // one for all meshes that differ in their vertices alone
+    std::vector<bool> invalid_;                                // empty when all are valid
     std::uint64_t invalid_count_ = 0;
 };
 

@@ -95,6 +95,12 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
                        duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),
                        plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
     }
+    if (plan.refit && plan.refit->refits > 0) {
+        text += format("refitted: %s times since it was built; a ray is reckoned at %.3g of what it was then\n",
+                       grouped(plan.refit->refits).c_str(), plan.refit->cost);
+    } else if (plan.refit) {
+        text += format("not refitted but built anew: %s\n", plan.refit->obstacle);
+    }
     text += format("  %-13s %8s %8s %5s %8s %8s  %8s %8s  %s\n", "structure", "build", "per ray", "+/-", "bytes",
                    "total", "build*", "per ray*", "better");
     for (const Structure structure : all_structures()) {
@@ -146,6 +152,15 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
         json.put("critical_rays", plan.hapala->critical_rays);
         json.put("keep_grid", plan.hapala->keep_grid);
         json.close_object();
+    }
+    if (plan.refit) {
+        json.open_object("refit");
+        json.put("refits", plan.refit->refits);
+        json.put("cost", plan.refit->cost);
+        json.put("obstacle", plan.refit->obstacle);
+        json.close_object();
+    } else {
+        json.put_null("refit");
     }
     json.put("chosen", name_of(plan.chosen));
     json.put("forced", plan.forced);

@@ -19,6 +19,17 @@ double ns_since(Clock::time_point start) {
 // One structure's sample is timed for no longer than this: on a large mesh a linear scan would take minutes for it.
 constexpr double sample_time_limit_ns = 50e6;
 
+// How many times what it did when it was built a refitted tree may cost where nobody knows how many rays are coming. Twice the cost is
+// about twice the time of a ray, and 10^6 rays of 0.5 us each, twice as slow, take what building 10^6 triangles at 0.3 us and the
+// refit that was in vain do.
+constexpr double refit_limit_without_count = 2.0;
+
+// Where they are counted: the cost at which what the rays lose is what building takes.
+double refit_limit(const Cost& predicted, const std::optional<std::uint64_t>& rays) {
+    if (!rays) return refit_limit_without_count;
+    return 1.0 + predicted.build_ns / (static_cast<double>(*rays) * predicted.ray_ns);
+}
+
 // Builds and times candidates, and keeps the one structure that will be used.
 class Planner {
 public:
@@ -32,8 +43,11 @@ public:
 
     PlannedAccel run() {
         const Clock::time_point start = Clock::now();
-        predict_all();
-        if (request_.forced) {
+        const bool is_taken = request_.before && take_moved(*request_.before);
+        if (!is_taken) predict_all();
+        if (is_taken) {
+            // The structure is that of before.
+        } else if (request_.forced) {
             take_forced();
         } else if (request_.rule == Rule::hapala) {
             take_by_hapala();
@@ -87,15 +101,22 @@ private:
             return request_.ready_accel;
         }
         const Clock::time_point start = Clock::now();
+        return note_built(candidate, build(structure, input()), start);
+    }
+
+    BuildInput input() const {
         const MachineConstants& constants = request_.profile->constants;
-        const BuildInput input{*request_.primitives,
-                               {constants.primitive_test_ns, constants.node_step_ns},
-                               request_.view,
-                               parallel_,
-                               progress_,
-                               !worth_gathering(request_.workload),
-                               request_.memory_limit};
-        std::shared_ptr<const Accel> accel = build(structure, input);
+        return {*request_.primitives,
+                {constants.primitive_test_ns, constants.node_step_ns},
+                request_.view,
+                parallel_,
+                progress_,
+                !worth_gathering(request_.workload),
+                request_.memory_limit};
+    }
+
+    std::shared_ptr<const Accel> note_built(PlannedCandidate& candidate, std::shared_ptr<const Accel> accel,
+                                            Clock::time_point start) const {
         candidate.actual_build_ns = ns_since(start);
         candidate.actual_bytes = accel->bytes();
         if (exceeds_limit(static_cast<double>(candidate.actual_bytes))) {
@@ -123,6 +144,36 @@ private:
                                      : "the smallest candidate needs about ") +
                         std::to_string(static_cast<std::uint64_t>(smallest)) + " bytes, the memory limit is " +
                         std::to_string(request_.memory_limit));
+    }
+
+    // The figures of the decision stay those of before. Returns false, with nothing taken, when it has to be made again: because far
+    // fewer or far more primitives can be hit, or what was chosen does not fit the memory limit any more.
+    bool take_moved(const PlanBefore& before) {
+        const std::uint64_t now = request_.primitives->hittable_count();
+        if (!request_.forced && (now > 2 * before.hittable_count || before.hittable_count > 2 * now)) {
+            plan_.refit = RefitReport{0, 1.0, "the number of triangles that can be hit has changed"};
+            return false;
+        }
+        plan_.candidates = before.plan.candidates;
+        plan_.hapala = before.plan.hapala;
+        const Structure structure = before.plan.chosen;
+        PlannedCandidate& candidate = plan_.candidate(structure);
+        progress_.report(0.0, "refitting");
+        const Clock::time_point start = Clock::now();
+        Refitted refitted = before.accel.refitted(input(), refit_limit(candidate.predicted, request_.workload.rays));
+        const std::uint64_t refits = before.plan.refit ? before.plan.refit->refits : 0;
+        plan_.refit = RefitReport{refitted.accel ? refits + 1 : 0, refitted.cost, refitted.obstacle};
+        std::shared_ptr<const Accel> accel = refitted.accel ? note_built(candidate, std::move(refitted.accel), start)
+                                                            : build_candidate(structure, "building");
+        if (accel) {
+            keep(structure, std::move(accel));
+            return true;
+        }
+        if (request_.forced) fail_over_limit();
+        plan_.candidates.clear();
+        plan_.hapala.reset();
+        plan_.refit = RefitReport{0, 1.0, "it would be over the memory limit"};
+        return false;
     }
 
     void take_forced() {

@@ -28,6 +28,15 @@ enum class Rule {
     hapala = 1
 };
 
+struct Plan;
+
+// The same geometry before it moved, with what was planned and built for it.
+struct PlanBefore {
+    const Plan& plan;
+    const Accel& accel;
+    std::uint64_t hittable_count;
+};
+
 struct PlanRequest {
     std::shared_ptr<const Primitives> primitives;
     std::shared_ptr<const Profile> profile;
@@ -42,6 +51,8 @@ struct PlanRequest {
     // A structure that is there already and costs nothing to build: the scene's, when a view is planned.
     std::optional<Structure> ready;
     std::shared_ptr<const Accel> ready_accel;
+    // Its structure is refitted, or the same built anew, as long as about as many primitives can be hit.
+    std::optional<PlanBefore> before;
 };
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -57,6 +68,13 @@ struct PlannedCandidate {
     std::uint64_t actual_bytes = 0; // 0: not known
 };
 
+// Of a scene made from one whose geometry has moved.
+struct RefitReport {
+    std::uint64_t refits = 0;  // since the structure was built; 0: it was built for this scene
+    double cost = 1.0;         // what a ray is taken to cost in the refitted tree, over the same when that was built
+    const char* obstacle = ""; // why it was built anew
+};
+
 struct Plan {
     std::vector<PlannedCandidate> candidates; // in the order of the structure list
     Structure chosen = Structure::linear_scan;
@@ -65,6 +83,7 @@ struct Plan {
     Effort effort = Effort::estimate;
     Rule rule = Rule::smallest_total;
     std::optional<HapalaDecision> hapala;
+    std::optional<RefitReport> refit;
     double decide_ns = 0.0; // everything but the build of the chosen structure
     double build_ns = 0.0;  // of the chosen structure
     std::uint64_t bytes = 0;

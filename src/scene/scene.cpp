@@ -54,6 +54,42 @@ void Scene::set_effort(Effort effort, Rule rule, double time_limit_seconds) {
 
 void Scene::commit(const Parallel& parallel, Progress& progress) {
     require_uncommitted();
+    build(std::nullopt, parallel, progress);
+}
+
+std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
+                                       Progress& progress) const {
+    require_committed();
+    if (meshes.size() != meshes_.size()) {
+        throw Error(Status::ERROR_INVALID_ARGUMENT, "mesh_count: it is " + std::to_string(meshes.size()) +
+                                                        ", the scene has " + std::to_string(meshes_.size()) +
+                                                        " meshes");
+    }
+    auto scene = std::make_shared<Scene>(profile_);
+    scene->triangle_count_ = triangle_count_;
+    scene->workload_ = workload_;
+    scene->sample_ = sample_;
+    scene->memory_limit_ = memory_limit_;
+    scene->forced_ = forced_;
+    scene->effort_ = effort_;
+    scene->rule_ = rule_;
+    scene->time_limit_seconds_ = time_limit_seconds_;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const MovedMesh& mesh = meshes[i];
+        const TriangleMesh& before = *meshes_[i];
+        if (mesh.arrays.triangle_count != before.triangle_count()) {
+            throw Error(Status::ERROR_INVALID_ARGUMENT,
+                        mesh.name + "triangle_count: it is " + std::to_string(mesh.arrays.triangle_count) +
+                            ", the scene's mesh has " + std::to_string(before.triangle_count()) + " triangles");
+        }
+        scene->meshes_.push_back(
+            std::make_shared<const TriangleMesh>(before, mesh.arrays, mesh.copy, mesh.skip_invalid, mesh.name));
+    }
+    scene->build(PlanBefore{plan_, tracer_->accel(), tracer_->primitives().hittable_count()}, parallel, progress);
+    return scene;
+}
+
+void Scene::build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress) {
     PlanRequest request;
     request.primitives = std::make_shared<const Primitives>(meshes_, parallel);
     request.profile = profile_;
@@ -64,6 +100,7 @@ void Scene::commit(const Parallel& parallel, Progress& progress) {
     request.time_limit_seconds = time_limit_seconds_;
     request.forced = forced_;
     request.memory_limit = memory_limit_;
+    if (before) request.before.emplace(*before);
     PlannedAccel planned = plan_and_build(request, parallel, progress);
 
     // Nothing below can fail half-way: the scene changes with the last line or not at all.

@@ -7,9 +7,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace raywise {
+
+// A mesh whose vertices have moved.
+struct MovedMesh {
+    TriangleArrays arrays; // without indices it has those of before
+    bool copy;
+    bool skip_invalid;
+    std::string name; // in front of messages about it
+};
 
 class Scene {
 public:
@@ -25,6 +34,11 @@ public:
 
     bool is_committed() const { return tracer_ != nullptr; }
 
+    // A committed scene of the same meshes at new places; what was said of this one before the commit holds for it too. Its structure is
+    // this one's refitted, or else built. Throws Error with ERROR_NOT_COMMITTED, and with ERROR_INVALID_ARGUMENT when numbers differ.
+    std::shared_ptr<Scene> refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
+                                    Progress& progress) const;
+
     // After it. Each throws Error(ERROR_NOT_COMMITTED) before.
     const Tracer& tracer() const;
     const Plan& plan() const;
@@ -35,6 +49,7 @@ public:
 private:
     void require_uncommitted() const;
     void require_committed() const;
+    void build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress);
 
     std::shared_ptr<const Profile> profile_;
     std::vector<std::shared_ptr<const TriangleMesh>> meshes_;

@@ -109,19 +109,6 @@ TEST(BvhSpatialSplits, SticksAreCutAndTheTreeIsBetter) {
     }
 }
 
-TEST(BvhSpatialSplits, CanBeRefitted) {
-    Triangles triangles = sticks(1000, 12);
-    Scene scene(triangles);
-    BvhTree tree = build_bvh(scene.input(), 1.0, high_quality());
-    for (Corners& corners : triangles) {
-        for (Vec3& p : corners) p = Vec3(p.z, p.x + 0.1 * p.y, -p.y);
-    }
-    Scene moved(triangles);
-    ASSERT_TRUE(refit(tree, moved.input()));
-    Random random(13);
-    for (int i = 0; i < 200; ++i) expect_closest(moved, tree, any_ray(triangles, moved.bounds(), random));
-}
-
 TEST(BvhSpatialSplits, Cancels) {
     Scene scene(sticks(20000, 14));
     const Parallel two(2);

@@ -218,18 +218,20 @@ TEST(WideBvh, EveryTriangleIsInOneLeaf) {
         const WideBvh& tree = bvh.tree();
         std::multiset<std::uint32_t> nodes;
         std::vector<std::uint32_t> found;
-        for (const WideNode& node : tree.nodes) {
+        for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+            const WideNode& node = tree.nodes[n];
             for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
                 if (node.planes[0][0][i] == absent_plane) continue;
                 const WideReference child = node.child[i];
                 if (!child.is_leaf()) {
+                    EXPECT_GT(child.index(), n) << "parents come before their children";
                     nodes.insert(child.index());
                     continue;
                 }
                 for (std::uint32_t begin = 0; begin < child.triangles(); begin += block_size) {
-                    const std::uint32_t n = std::min(block_size, child.triangles() - begin);
-                    for (std::uint32_t k = 0; k < n; ++k)
-                        found.push_back(BlockTriangle{tree.block(child.index() + begin), n, k}.primitive());
+                    const std::uint32_t size = std::min(block_size, child.triangles() - begin);
+                    for (std::uint32_t k = 0; k < size; ++k)
+                        found.push_back(BlockTriangle{tree.block(child.index() + begin), size, k}.primitive());
                 }
             }
         }

@@ -22,6 +22,7 @@ static void handles_and_pointers(void) {
     rw_profile_info info;
     rw_expected_rays expected;
     rw_view_options options;
+    rw_scene *refitted = NULL;
     memset(&rays, 0, sizeof rays);
     memset(&hits, 0, sizeof hits);
     memset(&flags, 0, sizeof flags);
@@ -66,6 +67,10 @@ static void handles_and_pointers(void) {
     NULL_HANDLE(rw_scene_set_structure(NULL, "bvh"), "scene");
     NULL_HANDLE(rw_scene_set_effort(NULL, 0, 0, 0), "scene");
     NULL_HANDLE(rw_scene_commit(NULL, NULL), "scene");
+    NULL_HANDLE(rw_scene_refit(NULL, &t, 1, NULL, &refitted), "scene");
+    NULL_HANDLE(rw_scene_refit(committed, NULL, 1, NULL, &refitted), "meshes");
+    NULL_HANDLE(rw_scene_refit(committed, &t, 1, NULL, NULL), "refitted");
+    CHECK(refitted == NULL);
     NULL_HANDLE(rw_scene_bounds(NULL, lower, upper), "scene");
     NULL_HANDLE(rw_scene_bounds(committed, NULL, upper), "lower");
     NULL_HANDLE(rw_scene_bounds(committed, lower, NULL), "upper");
@@ -159,7 +164,7 @@ static void struct_sizes(void) {
     memset(&statistics, 0, sizeof statistics);
     CHECK_ERROR(rw_scene_get_statistics(committed, &statistics), RW_ERROR_INVALID_ARGUMENT,
                 "statistics|struct_size is 0");
-    statistics.struct_size = sizeof statistics - 8;
+    statistics.struct_size = sizeof statistics - 16;
     CHECK_ERROR(rw_scene_get_statistics(committed, &statistics), RW_ERROR_INVALID_ARGUMENT, "struct_size");
     statistics.struct_size = 0xFFFFFFFFu;
     CHECK_ERROR(rw_scene_get_statistics(committed, &statistics), RW_ERROR_INVALID_ARGUMENT, "struct_size|4294967295");
@@ -200,6 +205,7 @@ static void struct_sizes(void) {
 
 /* A struct_size that is none of today's nor of an earlier version, in every struct that has one and every call that takes it. */
 static void struct_sizes_of_all(void) {
+    rw_scene *refitted = NULL;
     static const uint32_t sizes[] = {0, 1, 4, 12, 4097, 0xFFFFFFFFu};
     rw_profile_info info;
     rw_triangles t = triangles_of(&s), three[3];
@@ -254,6 +260,8 @@ static void struct_sizes_of_all(void) {
         BAD_SIZE(sample, rw_scene_set_expected_rays(fresh, &expected), "expected.sample");
         expected.sample = NULL;
         BAD_SIZE(commit, rw_scene_commit(fresh, &commit), "options");
+        BAD_SIZE(commit, rw_scene_refit(committed, &t, 1, &commit, &refitted), "options");
+        BAD_SIZE(t, rw_scene_refit(committed, &t, 1, NULL, &refitted), "meshes[0]");
         BAD_SIZE(statistics, rw_scene_get_statistics(committed, &statistics), "statistics");
         BAD_SIZE(grid, rw_scene_get_grid_statistics(on_grid, &grid), "statistics");
         BAD_SIZE(candidate, rw_scene_get_candidate(committed, 0, &candidate), "candidate");
@@ -282,6 +290,9 @@ static void struct_sizes_of_all(void) {
     three[1].struct_size = sizeof t + 8; /* into the third, which is all zero */
     CHECK_ERROR(rw_once_intersect(three, 2, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT,
                 "meshes[1]|struct_size differs from that of meshes[0]");
+    CHECK_ERROR(rw_scene_refit(committed, three, 2, NULL, &refitted), RW_ERROR_INVALID_ARGUMENT,
+                "meshes[1]|struct_size differs from that of meshes[0]");
+    CHECK(refitted == NULL);
     rw_scene_release(on_grid);
 }
 

@@ -82,6 +82,7 @@ static void before_and_after_the_commit(void) {
     rw_candidate candidate;
     rw_view_options options;
     rw_view *none = NULL;
+    rw_scene *refitted = NULL;
     rw_expected_rays expected;
     memset(&rays, 0, sizeof rays);
     memset(&hits, 0, sizeof hits);
@@ -113,6 +114,8 @@ static void before_and_after_the_commit(void) {
     TOO_EARLY(rw_scene_get_candidate(fresh, 0, &candidate));
     TOO_EARLY(rw_scene_explain(fresh, 0, NULL, 0, &needed));
     TOO_EARLY(rw_view_create(fresh, &options, NULL, &none));
+    TOO_EARLY(rw_scene_refit(fresh, &t, 1, NULL, &refitted));
+    CHECK(refitted == NULL);
 
 #define TOO_LATE(call) CHECK_ERROR(call, RW_ERROR_ALREADY_COMMITTED, "commit")
     TOO_LATE(rw_scene_add_triangles(committed, &t, NULL));
@@ -122,6 +125,68 @@ static void before_and_after_the_commit(void) {
     TOO_LATE(rw_scene_set_effort(committed, 0, 0, 0));
     TOO_LATE(rw_scene_commit(committed, NULL));
     CHECK_ERROR(rw_scene_get_grid_statistics(committed, &grid), RW_ERROR_WRONG_STRUCTURE, "linear_scan");
+}
+
+static void refits(void) {
+    rw_scene *scene = NULL, *none = NULL;
+    rw_triangles meshes[3];
+    float *vertices = (float *)malloc((size_t)s.triangles * 9 * sizeof(float));
+    uint32_t *indices = (uint32_t *)malloc((size_t)s.triangles * 3 * sizeof(uint32_t));
+    const double far[9] = {0, 0, 0, 1, 0, 0, 0, 1e39, 0};
+    if (vertices == NULL || indices == NULL) exit(1);
+    memcpy(vertices, s.vertices, (size_t)s.triangles * 9 * sizeof(float));
+    memcpy(indices, s.indices, (size_t)s.triangles * 3 * sizeof(uint32_t));
+    NEED_OK(rw_scene_create(profile, &scene));
+    meshes[0] = meshes[1] = meshes[2] = triangles_of(&s);
+    meshes[1].triangle_count = 17;
+    NEED_OK(rw_scene_add_triangles(scene, &meshes[0], NULL));
+    NEED_OK(rw_scene_add_triangles(scene, &meshes[1], NULL));
+    NEED_OK(rw_scene_set_structure(scene, "bvh"));
+    NEED_OK(rw_scene_commit(scene, NULL));
+
+#define REFIT(count) rw_scene_refit(scene, meshes, (count), NULL, &none)
+    CHECK_ERROR(REFIT(0), RW_ERROR_INVALID_ARGUMENT, "mesh_count: it is 0|2 meshes");
+    CHECK_ERROR(REFIT(1), RW_ERROR_INVALID_ARGUMENT, "mesh_count: it is 1|2 meshes");
+    CHECK_ERROR(REFIT(3), RW_ERROR_INVALID_ARGUMENT, "mesh_count: it is 3|2 meshes");
+    meshes[1].triangle_count = 18;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].triangle_count: it is 18|17 triangles");
+    meshes[1].triangle_count = 17;
+    meshes[1].indices.data = NULL;
+    meshes[1].vertex_count = 51;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].vertex_count: it is 51|300 vertices");
+    meshes[1] = triangles_of(&s);
+    meshes[1].triangle_count = 17;
+    meshes[1].vertices.data = vertices;
+    meshes[1].indices.data = indices;
+    vertices[3 * 41 + 2] = NAN;
+    CHECK_ERROR(REFIT(2), RW_ERROR_NOT_FINITE, "meshes[1].vertices: vertex 41: coordinate z is NaN");
+    vertices[3 * 41 + 2] = 0.0f;
+    indices[3 * 16 + 1] = 9000;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INDEX_OUT_OF_RANGE, "meshes[1].triangle 16: index 9000|300 vertices");
+    indices[3 * 16 + 1] = 0;
+    meshes[1].flags = 64;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1]: flags 64");
+    meshes[1].flags = 0;
+    meshes[1].vertices.type = RW_UINT32;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].vertices: type 4");
+    meshes[1].vertices.type = 0;
+    meshes[1].indices.type = RW_FLOAT64;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].indices: type 2");
+    meshes[1].indices.type = 0;
+    meshes[1].vertices.data = NULL;
+    CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].vertices: data is NULL");
+    meshes[1].vertices.data = far;
+    meshes[1].vertices.type = RW_FLOAT64;
+    meshes[1].vertex_count = 3;
+    CHECK_ERROR(REFIT(2), RW_ERROR_COORDINATE_RANGE, "meshes[1].vertices: vertex 2: coordinate y");
+    CHECK(none == NULL);
+    meshes[1] = triangles_of(&s);
+    meshes[1].triangle_count = 17;
+    CHECK_OK(REFIT(2));
+    rw_scene_release(none);
+    rw_scene_release(scene);
+    free(vertices);
+    free(indices);
 }
 
 static void expectations(void) {
@@ -282,7 +347,7 @@ static void callbacks(void) {
     rw_view *none = NULL;
     rw_rays rays;
     rw_hits hits;
-    rw_scene *scene = NULL;
+    rw_scene *scene = NULL, *tree = make_scene(&s, "bvh"), *refitted = NULL;
     const rw_triangles t = triangles_of(&s);
     double numbers[3] = {0, 0, 1}, out[1];
     size_t i;
@@ -314,23 +379,27 @@ static void callbacks(void) {
     commit.progress = stop;
     CHECK_ERROR(rw_scene_commit(scene, &commit), RW_ERROR_CANCELLED, "progress callback");
     CHECK_ERROR(rw_view_create(committed, &options, &commit, &none), RW_ERROR_CANCELLED, "progress callback");
+    CHECK_ERROR(rw_scene_refit(tree, &t, 1, &commit, &refitted), RW_ERROR_CANCELLED, "progress callback");
     commit.progress = NULL;
     for (i = 0; i < sizeof loops / sizeof loops[0]; ++i) {
         commit.parallel_for = query.parallel_for = loops[i].loop;
         CHECK_ERROR(rw_scene_commit(scene, &commit), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_view_create(committed, &options, &commit, &none), RW_ERROR_HOST_PARALLEL, loops[i].parts);
+        CHECK_ERROR(rw_scene_refit(tree, &t, 1, &commit, &refitted), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, &query), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_once_intersect(&t, 1, &rays, &hits, &once), RW_ERROR_HOST_PARALLEL, loops[i].parts);
     }
-    CHECK(none == NULL);
+    CHECK(none == NULL && refitted == NULL);
     CHECK_OK(rw_scene_commit(scene, NULL));
     rw_scene_release(scene);
+    rw_scene_release(tree);
 }
 
 int main(void) {
     set_up();
     meshes_in_memory();
     before_and_after_the_commit();
+    refits();
     expectations();
     memory_limit();
     memory_limit_of_builders();

@@ -32,6 +32,7 @@ typedef struct answers {
     double view_t[RAYS];
     uint64_t view_offsets[RAYS + 1];
     double once_t[RAYS];
+    rw_hit moved[RAYS];
     double lower[3], upper[3];
     char profile_text[8192];
 } answers;
@@ -39,6 +40,7 @@ typedef struct answers {
 static soup some;                /* float32, indexed */
 static double wide_vertices[18]; /* float64, not indexed */
 static uint64_t wide_indices[6]; /* float64, indexed with uint64 */
+static float moved_vertices[9 * TRIANGLES];
 static rw_ray rays_in[RAYS];
 static long attempts;     /* calls that said out of memory */
 static int keep_refusing; /* a refused call is tried once more before memory is given freely again */
@@ -206,6 +208,24 @@ static void ask_why(const rw_scene *scene) {
     CALL(rw_scene_explain(scene, RW_FORMAT_TEXT, text, sizeof text, &needed), text[0] == '{');
 }
 
+static void ask_moved(const rw_scene *scene, const rw_commit_options *one_thread, answers *a) {
+    rw_scene *moved = NULL;
+    rw_triangles meshes[3];
+    int i;
+    meshes[0] = meshes[1] = meshes[2] = triangles_of(&some);
+    meshes[0].vertices.data = moved_vertices;
+    meshes[0].indices.data = NULL; /* kept */
+    meshes[1].vertex_count = meshes[2].vertex_count = 6;
+    meshes[1].vertices.data = meshes[2].vertices.data = wide_vertices;
+    meshes[1].vertices.type = meshes[2].vertices.type = RW_FLOAT64;
+    meshes[1].triangle_count = meshes[2].triangle_count = 2;
+    meshes[1].indices.data = meshes[2].indices.data = NULL;
+    meshes[2].flags = RW_TRIANGLES_SKIP_INVALID; /* the indices that were shared are copied now */
+    CALL(rw_scene_refit(scene, meshes, 3, one_thread, &moved), moved == NULL);
+    for (i = 0; i < RAYS; ++i) CALL(rw_scene_intersect(moved, &rays_in[i], &a->moved[i]), UNWRITTEN(a->moved[i]));
+    CHECK_OK(rw_scene_release(moved));
+}
+
 static void ask_once(const rw_profile *profile, const plan *p, const rw_query_options *query, answers *a) {
     const rw_triangles mesh = triangles_of(&some);
     const rw_rays rays = all_rays();
@@ -241,6 +261,7 @@ static void program(const plan *p, answers *a) {
     ask_view(scene, p, &one_thread, &query, a);
     ask_why(scene);
     ask_once(profile, p, &query, a);
+    ask_moved(scene, &one_thread, a);
     CHECK_OK(rw_scene_release(scene));
     CHECK_OK(rw_profile_release(profile));
 }
@@ -283,6 +304,7 @@ int main(void) {
     use_all_helpers();
     some = make_soup(TRIANGLES);
     memcpy(wide_vertices, quad, sizeof quad);
+    for (i = 0; i < 9 * TRIANGLES; ++i) moved_vertices[i] = some.vertices[i] * (i % 3 == 1 ? -0.75f : 1.25f);
     for (i = 0; i < 6; ++i) wide_indices[i] = 5 - i;
     for (i = 0; i < RAYS; ++i) rays_in[i] = random_ray();
     NEED_OK(rw_structure_count(&structures));

@@ -17,6 +17,8 @@ template <class T>
 inline constexpr std::uint32_t oldest_size = sizeof(T);
 template <>
 inline constexpr std::uint32_t oldest_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
+template <>
+inline constexpr std::uint32_t oldest_size<rw_scene_statistics> = offsetof(rw_scene_statistics, refits); // 0.1
 
 template <class T>
 class CallerStruct {
@@ -50,14 +52,17 @@ public:
     bool is_of_an_older_program() const { return size_ == oldest_size<T> && size_ < sizeof(T); }
 
     bool is_unchanged() const { return bytes_ == before_; }
-    // For results: the size and whatever comes behind the known members stay as they are.
+    // For results: the size and whatever comes behind the known members stay as they are. Members that its program does not know are
+    // zero.
     T result() const {
+        const std::size_t known = std::min(bytes_.size(), sizeof(T));
         demand(std::memcmp(bytes_.data(), before_.data(), sizeof size_) == 0,
                "a result struct's struct_size was changed");
-        demand(std::equal(bytes_.begin() + sizeof(T), bytes_.end(), before_.begin() + sizeof(T)),
+        demand(std::equal(bytes_.begin() + static_cast<std::ptrdiff_t>(known), bytes_.end(),
+                          before_.begin() + static_cast<std::ptrdiff_t>(known)),
                "a result struct was written to behind its known members");
-        T value;
-        std::memcpy(&value, bytes_.data(), sizeof value);
+        T value{};
+        std::memcpy(&value, bytes_.data(), known);
         return value;
     }
 

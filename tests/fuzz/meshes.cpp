@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace raywise::fuzz {
 namespace {
@@ -128,6 +129,21 @@ Shape make_shape(Input& input) {
     return shape;
 }
 
+// All of them, some of them, or none.
+std::vector<Point> move_points(Input& input, std::vector<Point> points) {
+    const std::size_t way = input.below(5);
+    const double by = input.coordinate();
+    for (Point& p : points) {
+        if (way == 0 || (way == 4 && !input.one_in(2))) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = way == 1 ? p[axis] + by : way == 2 ? p[axis] * by : way == 3 ? by : input.coordinate();
+            p[axis] = x;
+        }
+    }
+    if (!points.empty() && input.one_in(8)) points[input.below(points.size())][input.below(3)] = input.number();
+    return points;
+}
+
 bool is_beyond_float(double x) { return std::fabs(x) > static_cast<double>(std::numeric_limits<float>::max()); }
 
 } // namespace
@@ -138,30 +154,71 @@ Mesh::Mesh(Input& input) {
     judge();
 }
 
+Mesh::Mesh(Input& input, std::shared_ptr<const Mesh> before) : before_(std::move(before)) {
+    std::vector<Point> points = move_points(input, before_->values_);
+    const bool was_indexed = before_->triangles_.indices.data != nullptr;
+    std::vector<Triangle> triangles = before_->corners_;
+    const bool is_indexed = was_indexed && input.one_in(2);
+    if (is_indexed && !triangles.empty() && input.one_in(32)) { // another number of triangles
+        triangles.pop_back();
+        outcome_.fails_if(true, RW_ERROR_INVALID_ARGUMENT);
+    }
+    if (is_indexed && !points.empty() && input.one_in(16)) points.pop_back(); // some indices may be out of range now
+    if (!is_indexed && input.one_in(32)) {
+        points.push_back({0.0, 0.0, 0.0});
+        outcome_.fails_if(true, RW_ERROR_INVALID_ARGUMENT);
+    }
+    triangles_.struct_size = sizeof triangles_;
+    triangles_.triangle_count = triangles.size();
+    if (input.one_in(3)) triangles_.flags |= RW_TRIANGLES_SHARED;
+    if ((before_->triangles_.flags & RW_TRIANGLES_SKIP_INVALID) != 0 && !input.one_in(8))
+        triangles_.flags |= RW_TRIANGLES_SKIP_INVALID;
+    describe_vertices(input, points);
+    if (is_indexed) {
+        describe_indices(input, triangles);
+    } else {
+        triangles_.indices = before_->triangles_.indices;
+        keeps_indices_ = was_indexed;
+        corners_ = std::move(triangles);
+    }
+    pack();
+    judge();
+}
+
 void Mesh::make_arrays(Input& input) {
     const Shape shape = make_shape(input);
-    vertex_array_ = InputArray::numbers(input, shape.points.size(), 3, [&](std::uint64_t i, int c) {
-        return shape.points[i][static_cast<std::size_t>(c)];
-    });
     triangles_.struct_size = sizeof triangles_;
-    triangles_.vertex_count = shape.points.size();
-    triangles_.vertices = vertex_array_.array();
     triangles_.triangle_count = shape.triangles.size();
+    describe_vertices(input, shape.points);
     if (input.one_in(3)) triangles_.flags |= RW_TRIANGLES_SHARED;
     if (input.one_in(3)) triangles_.flags |= RW_TRIANGLES_SKIP_INVALID;
     if (shape.indexed) {
-        index_array_ = InputArray::ids(input, shape.triangles.size(), 3, [&](std::uint64_t i, int c) {
-            return shape.triangles[i][static_cast<std::size_t>(c)];
-        });
-        triangles_.indices = index_array_.array();
+        describe_indices(input, shape.triangles);
+    } else {
+        corners_ = shape.triangles;
     }
-    for (std::uint64_t i = 0; i < shape.points.size(); ++i) {
+    pack();
+}
+
+void Mesh::describe_vertices(Input& input, const std::vector<Point>& points) {
+    vertex_array_ = InputArray::numbers(input, points.size(), 3,
+                                        [&](std::uint64_t i, int c) { return points[i][static_cast<std::size_t>(c)]; });
+    triangles_.vertex_count = points.size();
+    triangles_.vertices = vertex_array_.array();
+    for (std::uint64_t i = 0; i < points.size(); ++i) {
         values_.push_back({vertex_array_.number(i, 0), vertex_array_.number(i, 1), vertex_array_.number(i, 2)});
     }
-    for (std::uint64_t i = 0; i < shape.triangles.size(); ++i) {
-        corners_.push_back(shape.indexed ? Triangle{index_array_.id(i, 0), index_array_.id(i, 1), index_array_.id(i, 2)}
-                                         : shape.triangles[i]);
-    }
+}
+
+void Mesh::describe_indices(Input& input, const std::vector<Triangle>& triangles) {
+    index_array_ = InputArray::ids(input, triangles.size(), 3,
+                                   [&](std::uint64_t i, int c) { return triangles[i][static_cast<std::size_t>(c)]; });
+    triangles_.indices = index_array_.array();
+    for (std::uint64_t i = 0; i < triangles.size(); ++i)
+        corners_.push_back({index_array_.id(i, 0), index_array_.id(i, 1), index_array_.id(i, 2)});
+}
+
+void Mesh::pack() {
     for (const Point& p : values_) {
         for (const double x : p) {
             packed_doubles_.push_back(x);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace raywise::fuzz {
@@ -18,9 +19,17 @@ using Point = std::array<double, 3>;
 class Mesh {
 public:
     explicit Mesh(Input& input);
+    // The same mesh with its vertices elsewhere, for rw_scene_refit; now and then with numbers that differ, which it refuses.
+    Mesh(Input& input, std::shared_ptr<const Mesh> before);
 
     // As the caller describes it. The arrays belong to this object.
     const rw_triangles& triangles() const { return triangles_; }
+    // The same for rw_scene_refit, which may be without the indices that the scene has already.
+    rw_triangles moved_triangles() const {
+        rw_triangles moved = triangles_;
+        if (keeps_indices_) moved.indices.data = nullptr;
+        return moved;
+    }
     // The same numbers of the same type, packed, always to be copied: what the judge gets.
     rw_triangles packed() const;
 
@@ -37,10 +46,14 @@ public:
     void describe() const; // on stderr
 
 private:
+    void describe_vertices(Input& input, const std::vector<Point>& points);
+    void describe_indices(Input& input, const std::vector<std::array<std::uint64_t, 3>>& triangles);
+    void pack();
     void make_arrays(Input& input);
     void spoil(Input& input);
     void judge();
 
+    std::shared_ptr<const Mesh> before_; // its indices may be in use
     rw_triangles triangles_{};
     InputArray vertex_array_;
     InputArray index_array_;
@@ -52,6 +65,7 @@ private:
     std::vector<double> packed_doubles_;
     std::vector<std::uint64_t> packed_indices_;
     bool is_described_wrongly_ = false;
+    bool keeps_indices_ = false;
     Outcome outcome_{"add a mesh"};
 };
 

@@ -148,7 +148,8 @@ void World::run() {
                                      &World::once,
                                      &World::make_scene,
                                      &World::keep_and_give_back,
-                                     &World::use_profile};
+                                     &World::use_profile,
+                                     &World::refit};
     make_scene();
     for (int i = 0; i < 64 && !input_.is_empty(); ++i) (this->*input_.pick(steps))();
 
@@ -281,6 +282,45 @@ void World::commit() {
     } else if (!scene->is_committed()) {
         ask_too_early(input_, scene->held.handle);
     }
+}
+
+void World::refit() {
+    const SceneState* scene = any_scene();
+    if (scene == nullptr || scenes_.size() >= most_handles) return;
+    SceneState moved;
+    Build build(input_);
+    Outcome outcome("refit");
+    std::vector<rw_triangles> described;
+    for (const auto& mesh : scene->meshes) {
+        moved.meshes.push_back(std::make_shared<Mesh>(input_, mesh));
+        outcome.add(moved.meshes.back()->outcome());
+        described.push_back(moved.meshes.back()->moved_triangles());
+    }
+    if (input_.one_in(32)) {
+        if (!described.empty() && input_.one_in(2)) {
+            described.pop_back();
+        } else {
+            described.emplace_back();
+            described.back().struct_size = sizeof(rw_triangles);
+        }
+        outcome.fails_if(true, RW_ERROR_INVALID_ARGUMENT);
+    }
+    moved.held.references = 1;
+    moved.forced = scene->forced;
+    moved.memory_limit = scene->memory_limit;
+    const std::int32_t status =
+        rw_scene_refit(scene->held.handle, described.data(), static_cast<std::uint32_t>(described.size()), build.get(),
+                       &moved.held.handle);
+    outcome.fails_if(!scene->is_committed(), RW_ERROR_NOT_COMMITTED)
+        .add(build.outcome())
+        .may_fail_if(scene->memory_limit != 0, RW_ERROR_MEMORY_LIMIT);
+    const bool made = outcome.check(status);
+    build.check(made);
+    for (const auto& mesh : moved.meshes) demand(mesh->is_unchanged(), "refitting wrote to a mesh");
+    demand(made == (moved.held.handle != nullptr), "a refitted scene and an error, or neither");
+    if (!made) return;
+    moved.reference = std::make_shared<Reference>(moved.meshes, true);
+    scenes_.push_back(std::move(moved));
 }
 
 void World::ask() {

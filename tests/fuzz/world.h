@@ -52,6 +52,7 @@ private:
     void set_expected_rays();
     void set_options();
     void commit();
+    void refit();
     void ask();
     void look_at_facts();
     void make_view();

@@ -165,5 +165,53 @@ TEST(TriangleMesh, KeepsWideIndicesApartWhenTheyAreCut) {
     EXPECT_FALSE(TriangleMesh(arrays, true, true).is_valid(0));
 }
 
+TEST(TriangleMesh, KeepsTheIndicesOfTheMeshItWas) {
+    Arrays data;
+    TriangleArrays moved = data.describe();
+    moved.indices = {};
+    for (const bool was_copied : {false, true}) {
+        for (const bool copy : {false, true}) {
+            auto before = std::make_unique<TriangleMesh>(data.describe(), was_copied, false);
+            const TriangleMesh mesh(*before, moved, copy, false);
+            const TriangleMesh third(mesh, moved, copy, false);
+            const std::size_t bytes = before->bytes();
+            before.reset();
+            EXPECT_EQ(third.corners(1), (Corners{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}));
+            if (was_copied && copy) {
+                EXPECT_EQ(third.bytes(), bytes);
+            }
+            // Indices that are read in place stay so only where nothing is copied.
+            EXPECT_EQ(mesh.arrays().indices.data == data.describe().indices.data, !was_copied && !copy);
+        }
+    }
+    moved.vertex_count -= 1;
+    const TriangleMesh before(data.describe(), true, false);
+    try {
+        const TriangleMesh mesh(before, moved, true, false, "meshes[4].");
+        FAIL() << "there are fewer vertices";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("meshes[4].vertex_count: it is 3"), std::string::npos) << error.what();
+    }
+}
+
+TEST(TriangleMesh, IndicesThatWereInvalidStayInvalidWhenTheyAreKept) {
+    const Arrays data;
+    // In the lower half of the second one is a valid index.
+    const std::uint64_t wide[] = {0, 1, 4, 0, (std::uint64_t{1} << 32) + 1, 2, 0, 1, 2};
+    TriangleArrays arrays = data.describe();
+    arrays.indices = {reinterpret_cast<const std::byte*>(wide), 24, 8, Scalar::uint64};
+    arrays.triangle_count = 3;
+    const TriangleMesh before(arrays, true, true);
+    arrays.indices = {};
+    for (const bool copy : {false, true}) {
+        const TriangleMesh mesh(before, arrays, copy, true);
+        EXPECT_EQ(mesh.invalid_count(), 2u);
+        EXPECT_FALSE(mesh.is_valid(0));
+        EXPECT_FALSE(mesh.is_valid(1));
+        EXPECT_TRUE(mesh.is_valid(2));
+        EXPECT_THROW(TriangleMesh(before, arrays, copy, false), Error);
+    }
+}
+
 } // namespace
 } // namespace raywise

@@ -257,6 +257,7 @@ class rw_scene_statistics(ctypes.Structure):
         ("rays", ctypes.c_uint64),
         ("invalid_rays", ctypes.c_uint64),
         ("rays_ns", ctypes.c_double),
+        ("refits", ctypes.c_uint64),
     ]
 
 
@@ -358,6 +359,16 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "rw_scene_set_structure": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_char_p]),
     "rw_scene_set_effort": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32, ctypes.c_double]),
     "rw_scene_commit": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_commit_options)]),
+    "rw_scene_refit": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_triangles),
+            ctypes.c_uint32,
+            ctypes.POINTER(rw_commit_options),
+            ctypes.c_void_p,
+        ],
+    ),
     "rw_scene_bounds": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]),
     "rw_scene_get_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_scene_statistics)]),
     "rw_scene_get_grid_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_grid_statistics)]),
@@ -720,7 +731,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_scene_statistics": (
-        96,
+        104,
         8,
         {
             "struct_size": 0,
@@ -736,6 +747,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "rays": 72,
             "invalid_rays": 80,
             "rays_ns": 88,
+            "refits": 96,
         },
     ),
     "rw_grid_statistics": (

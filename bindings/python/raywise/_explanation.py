@@ -40,6 +40,7 @@ class SceneStatistics:
     rays: int  # answered in batches so far
     invalid_rays: int  # rays with a NaN so far, single calls included
     rays_ns: float  # wall time of those batches
+    refits: int  # how often the structure was refitted since it was built
 
 
 @dataclass(frozen=True)

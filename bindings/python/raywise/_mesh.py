@@ -120,6 +120,11 @@ class Triangles:
     kept: List[object]
     signed: Optional[Array]  # the indices as the caller gave them, when they could be negative
 
+    @property
+    def indices(self) -> Optional[object]:
+        """What has to be kept of it for its indices; None: it has none."""
+        return self.kept[-1] if self.struct.indices.data else None
+
     def in_callers_terms(self, error: RaywiseError) -> RaywiseError:
         """The same error, in the caller's terms when the index was a negative one."""
         if self.signed is None or self.signed.size == 0 or self.signed.min() >= 0:
@@ -158,3 +163,14 @@ def triangles_of(
     struct.triangle_count = len(corners)
     struct.indices = input_array(corners)
     return Triangles(struct, [points, corners], given if given.dtype.kind == "i" else None)
+
+
+def moved_triangles_of(vertices: npt.ArrayLike, triangle_count: int, *, skip_invalid: bool, shared: bool) -> Triangles:
+    """Describes a mesh that keeps its indices for rw_scene_refit. ValueError and TypeError name the argument."""
+    points = expressible(require_rows(as_floats(vertices, "vertices"), "vertices", 3))
+    struct = sized(c.rw_triangles)
+    struct.flags = (c.RW_TRIANGLES_SHARED if shared else 0) | (c.RW_TRIANGLES_SKIP_INVALID if skip_invalid else 0)
+    struct.vertex_count = len(points)
+    struct.vertices = input_array(points)
+    struct.triangle_count = triangle_count
+    return Triangles(struct, [points], None)

@@ -16,7 +16,7 @@ from ._errors import IndexOutOfRange, NotCommitted, check
 from ._explanation import GridStatistics, SceneStatistics, facts
 from ._handle import Reference
 from ._library import lib
-from ._mesh import Mesh, triangles_of
+from ._mesh import Mesh, Triangles, moved_triangles_of, triangles_of
 from ._profile import Profile
 from ._progress import Progress, ProgressCallback
 from ._queries import Queries
@@ -31,6 +31,13 @@ class Bounds(NamedTuple):
 
     lower: npt.NDArray[np.float64]
     upper: npt.NDArray[np.float64]
+
+
+class _Added(NamedTuple):
+    """A mesh of a scene."""
+
+    triangle_count: int
+    shared_indices: Optional[object]  # what has to be kept when the scene reads them in place
 
 
 class SceneBusy(RuntimeError):
@@ -91,6 +98,7 @@ class Scene(Queries):
         super().__init__(Reference(address.value, lib.rw_scene_release))
         self._alone = threading.Lock()
         self._is_committed = False
+        self._meshes: "List[_Added]" = []
 
         if expected_rays is not None or kind != "any" or sample is not None:
             self.set_expected_rays(expected_rays, kind, sample)
@@ -156,6 +164,7 @@ class Scene(Queries):
                 raise described.in_callers_terms(error) from None
             if not copy:
                 reference.kept.extend(described.kept)
+            self._meshes.append(_Added(described.struct.triangle_count, None if copy else described.indices))
         return geometry.value
 
     def set_expected_rays(
@@ -245,6 +254,74 @@ class Scene(Queries):
             if status == c.RW_OK:
                 self._is_committed = True
         build.finish(status)
+
+    def refit(
+        self,
+        *meshes: "Union[npt.ArrayLike, Mesh, Tuple[npt.ArrayLike, Optional[npt.ArrayLike]]]",
+        skip_invalid: bool = False,
+        copy: bool = True,
+        threads: Count = 0,
+        progress: Optional[ProgressCallback] = None,
+    ) -> "Scene":
+        """A committed scene of the same triangles at new places, as for the next frame of meshes that deform.
+
+        The structure is this scene's with new boxes where it has such a form ("bvh") and that pays, which takes a
+        fraction of building; else it is built anew. Expectations, effort, memory limit, profile and a forced structure
+        are those of this scene. Answers are those of any scene with these meshes. This scene stays as it is.
+
+        meshes: one for each mesh of the scene, in the order of adding, each with as many triangles as before: its
+        vertices alone, which keep their indices and have to be as many as before; or a tuple (vertices, triangles); or
+        a Mesh.
+        skip_invalid, copy: as for add_triangles, for all of them. With copy=False, indices that this scene reads in
+        place are read in place by the new one as well.
+        threads, progress: as for commit.
+
+        Raises NotCommitted, NotFinite, CoordinateRange, IndexOutOfRange, ValueError (numbers that differ), TypeError,
+        Cancelled, MemoryLimit, MemoryError, ClosedError. Threads: any.
+
+        C: rw_scene_refit.
+        """
+        reference = self._committed()
+        described: "List[Triangles]" = []
+        added: "List[_Added]" = []
+        for i, mesh in enumerate(meshes):
+            before = self._meshes[i] if i < len(self._meshes) else _Added(0, None)
+            if isinstance(mesh, tuple) and len(mesh) != 2:
+                raise TypeError(f"meshes[{i}]: a tuple is (vertices, triangles), this one has {len(mesh)} elements")
+            vertices, triangles = mesh if isinstance(mesh, tuple) else (mesh, None)
+            if isinstance(vertices, Mesh) or triangles is not None:
+                triangles_ = triangles_of(vertices, triangles, skip_invalid=skip_invalid, shared=not copy)
+                indices = triangles_.indices
+            else:
+                triangles_ = moved_triangles_of(
+                    vertices, before.triangle_count, skip_invalid=skip_invalid, shared=not copy
+                )
+                indices = before.shared_indices
+            described.append(triangles_)
+            added.append(_Added(triangles_.struct.triangle_count, None if copy else indices))
+        build = Progress(threads, progress)
+        address = ctypes.c_void_p()
+        structs = (c.rw_triangles * len(described))(*(each.struct for each in described))
+        status = lib.rw_scene_refit(reference.address, structs, len(described), build.options, ctypes.byref(address))
+        try:
+            build.finish(status)
+        except IndexOutOfRange as error:
+            for i, each in enumerate(described):
+                if f"meshes[{i}]." in str(error):
+                    raise each.in_callers_terms(error) from None
+            raise
+        assert address.value is not None
+        scene = Scene.__new__(Scene)
+        Queries.__init__(scene, Reference(address.value, lib.rw_scene_release))
+        scene._alone = threading.Lock()
+        scene._is_committed = True
+        scene._meshes = added
+        if not copy:
+            kept = scene._use().kept
+            for each in described:
+                kept.extend(each.kept)
+            kept.extend(mesh.shared_indices for mesh in added)
+        return scene
 
     # --- facts -----------------------------------------------------------------------------------------------------
 

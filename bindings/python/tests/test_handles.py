@@ -93,6 +93,7 @@ def test_every_method_of_a_closed_scene_says_so() -> None:
         lambda: scene.set_memory_limit(0),
         lambda: scene.set_effort(),
         lambda: scene.view(origin=[0, 0, 1]),
+        lambda: scene.refit(VERTICES),
     ):
         with pytest.raises(raywise.ClosedError):
             use()

@@ -464,7 +464,7 @@ RW_API int32_t rw_scene_set_structure(rw_scene *scene, const char *name);
 RW_API int32_t rw_scene_set_effort(rw_scene *scene, int32_t effort, int32_t rule, double time_limit_seconds);
 
 /* A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It may be called from
- * any of the threads at work, never from two at once; at least once per commit and per view. */
+ * any of the threads at work, never from two at once; at least once per commit, refit and view. */
 typedef int32_t (*rw_progress)(void *user, double fraction, const char *stage);
 
 typedef struct rw_commit_options {
@@ -482,6 +482,25 @@ typedef struct rw_commit_options {
  * RW_ERROR_HOST_PARALLEL, RW_ERROR_INVALID_ARGUMENT. On an error the scene is as it was and may be committed again.
  * Threads: alone with the scene. Since: 0.1. */
 RW_API int32_t rw_scene_commit(rw_scene *scene, const rw_commit_options *options);
+
+/* Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The structure is the
+ * old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of building; else the same structure
+ * is built anew. It is chosen anew only when the number of triangles that can be hit has changed more than twofold or it would be
+ * over the memory limit. Expectations, effort, memory limit, profile and a forced structure are those of the old scene. Answers
+ * are those of any scene with these meshes.
+ * scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards.
+ * meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as before, and
+ * vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh keeps the indices it has in
+ * the old scene (none, if it has none), and then needs as many vertices as there; indices that the old scene reads in place
+ * (RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's vertices are not read: they may be gone, or
+ * moved in place, as long as nobody asks the old scene any more.
+ * mesh_count: as many as the scene has. options: struct_size set; NULL: the defaults.
+ * refitted: receives a scene the caller must release; not NULL.
+ * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY,
+ * RW_ERROR_HOST_PARALLEL, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY,
+ * RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2. */
+RW_API int32_t rw_scene_refit(const rw_scene *scene, const rw_triangles *meshes, uint32_t mesh_count,
+                              const rw_commit_options *options, rw_scene **refitted);
 
 /* ------------------------------------------------------------------------------------------------
  * Scenes: facts
@@ -506,6 +525,7 @@ typedef struct rw_scene_statistics {
     uint64_t rays;                 /* answered in batches so far */
     uint64_t invalid_rays;         /* rays with a NaN so far, single calls included */
     double rays_ns;                /* wall time of those batches */
+    uint64_t refits;               /* how often the structure was refitted since it was built. Since 0.2 */
 } rw_scene_statistics;
 
 /* Does: tells what is in a scene and what it has cost.

@@ -908,7 +908,7 @@ impl Default for rw_expected_rays {
 /**
 ```text
 A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It may be called from
-any of the threads at work, never from two at once; at least once per commit and per view.
+any of the threads at work, never from two at once; at least once per commit, refit and view.
 ```
 */
 pub type rw_progress = ::std::option::Option<
@@ -1014,6 +1014,8 @@ pub struct rw_scene_statistics {
     pub invalid_rays: u64,
     /// wall time of those batches
     pub rays_ns: f64,
+    /// how often the structure was refitted since it was built. Since 0.2
+    pub refits: u64,
 }
 #[test]
 fn bindgen_test_layout_rw_scene_statistics() {
@@ -1021,7 +1023,7 @@ fn bindgen_test_layout_rw_scene_statistics() {
     let ptr = UNINIT.as_ptr();
     assert_eq!(
         ::std::mem::size_of::<rw_scene_statistics>(),
-        96usize,
+        104usize,
         "Size of rw_scene_statistics",
     );
     assert_eq!(
@@ -1097,6 +1099,11 @@ fn bindgen_test_layout_rw_scene_statistics() {
         unsafe { ::std::ptr::addr_of!((*ptr).rays_ns) as usize - ptr as usize },
         88usize,
         "Offset of field: rw_scene_statistics::rays_ns",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).refits) as usize - ptr as usize },
+        96usize,
+        "Offset of field: rw_scene_statistics::refits",
     );
 }
 impl Default for rw_scene_statistics {
@@ -1735,6 +1742,33 @@ Threads: alone with the scene. Since: 0.1.
     pub fn rw_scene_commit(
         scene: *mut rw_scene,
         options: *const rw_commit_options,
+    ) -> i32;
+    /**
+```text
+Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The structure is the
+old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of building; else the same structure
+is built anew. It is chosen anew only when the number of triangles that can be hit has changed more than twofold or it would be
+over the memory limit. Expectations, effort, memory limit, profile and a forced structure are those of the old scene. Answers
+are those of any scene with these meshes.
+scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards.
+meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as before, and
+vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh keeps the indices it has in
+the old scene (none, if it has none), and then needs as many vertices as there; indices that the old scene reads in place
+(RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's vertices are not read: they may be gone, or
+moved in place, as long as nobody asks the old scene any more.
+mesh_count: as many as the scene has. options: struct_size set; NULL: the defaults.
+refitted: receives a scene the caller must release; not NULL.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY,
+RW_ERROR_HOST_PARALLEL, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY,
+RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2.
+```
+*/
+    pub fn rw_scene_refit(
+        scene: *const rw_scene,
+        meshes: *const rw_triangles,
+        mesh_count: u32,
+        options: *const rw_commit_options,
+        refitted: *mut *mut rw_scene,
     ) -> i32;
     /**
 ```text

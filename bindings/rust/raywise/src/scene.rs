@@ -9,7 +9,7 @@ use crate::handle::Handle;
 use crate::library::{check, size_of_struct};
 use crate::questions::functions::{Asked, Functions};
 use crate::questions::functions_of;
-use crate::{CommitOptions, GridStatistics, Result, SceneStatistics, View, ViewOptions};
+use crate::{CommitOptions, GridStatistics, Result, SceneStatistics, Triangles, View, ViewOptions};
 
 /// Geometry with the structure chosen for it (`rw_scene`). It never changes, and any number of threads may ask it at the
 /// same time; the questions are in [`RayQueries`](crate::RayQueries). Cloning shares the scene (`rw_scene_retain`).
@@ -80,6 +80,52 @@ impl Scene {
         // SAFETY: the scene lives, and `raw` says how large it is.
         check(unsafe { sys::rw_scene_get_grid_statistics(self.as_ptr(), &mut raw) })?;
         Ok(GridStatistics::from_raw(&raw))
+    }
+
+    /// Makes a scene of the same triangles at new places, as for the next frame of meshes that deform. The structure is this
+    /// scene's with new boxes where it has such a form (`bvh`) and that pays, which takes a fraction of building; else it is
+    /// built anew. What was said before this scene's commit holds for the new one too; this one stays as it is. Wraps
+    /// `rw_scene_refit`.
+    ///
+    /// `meshes`: all of the scene's, in the order of adding, each with as many triangles as before, copied;
+    /// [`Triangles::moved`] keeps the indices.
+    ///
+    /// ```
+    /// use raywise::{Ray, RayQueries, SceneBuilder, Triangles};
+    /// let mut builder = SceneBuilder::new()?;
+    /// builder.add_triangles(&[[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0_u32, 1, 2]])?;
+    /// let scene = builder.commit()?;
+    /// let lifted = [[0.0_f32, 0.0, 0.5], [1.0, 0.0, 0.5], [0.0, 1.0, 0.5]];
+    /// let next = scene.refit(&[Triangles::moved(&lifted, 1)])?;
+    /// let hit = next.intersect(&Ray::new([0.2, 0.2, 1.0], [0.0, 0.0, -1.0]))?;
+    /// assert_eq!(hit.map(|hit| hit.t), Some(0.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`refit_with`](Scene::refit_with).
+    pub fn refit(&self, meshes: &[Triangles<'_>]) -> Result<Scene> {
+        self.refit_with(meshes, CommitOptions::new())
+    }
+
+    /// [`refit`](Scene::refit) with a number of threads, progress, cancelling or the host's threads. Wraps `rw_scene_refit`.
+    ///
+    /// # Errors
+    /// [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) for numbers that differ, `NOT_FINITE`,
+    /// `COORDINATE_RANGE`, `INDEX_OUT_OF_RANGE`, `CANCELLED`, `MEMORY_LIMIT`, `OUT_OF_MEMORY` or `HOST_PARALLEL`.
+    ///
+    /// # Panics
+    /// When the caller's closures panic; the build is stopped first.
+    pub fn refit_with(&self, meshes: &[Triangles<'_>], commit: CommitOptions<'_>) -> Result<Scene> {
+        let meshes: Vec<sys::rw_triangles> = meshes.iter().map(Triangles::raw).collect();
+        // The library counts meshes in 32 bits; more than that would not fit into memory.
+        let (first, count) = (meshes.as_ptr(), meshes.len() as u32);
+        let handle = commit.with_raw(|commit| {
+            // SAFETY: the scene lives; the meshes are borrowed through the call, in which all that is kept of them is
+            // copied, the indices that this scene reads in place included.
+            Handle::create(|scene| unsafe { sys::rw_scene_refit(self.as_ptr(), first, count, commit, scene) })
+        })?;
+        Ok(Scene::new(handle, Vec::new()))
     }
 
     /// Makes a view of the scene, and builds a structure for it when that pays. Wraps `rw_view_create`.

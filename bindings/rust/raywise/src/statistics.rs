@@ -32,6 +32,8 @@ pub struct SceneStatistics {
     pub invalid_rays: u64,
     /// Wall time of those batches, ns.
     pub rays_ns: f64,
+    /// How often the structure was refitted since it was built.
+    pub refits: u64,
 }
 
 impl SceneStatistics {
@@ -52,6 +54,7 @@ impl SceneStatistics {
             rays: raw.rays,
             invalid_rays: raw.invalid_rays,
             rays_ns: raw.rays_ns,
+            refits: raw.refits,
         }
     }
 }

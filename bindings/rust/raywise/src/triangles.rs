@@ -60,6 +60,20 @@ impl<'a> Triangles<'a> {
         unsafe { Self::from_raw(raw) }
     }
 
+    /// The vertices alone of a mesh of so many triangles that has moved, for [`Scene::refit`](crate::Scene::refit): it keeps
+    /// the indices that it has in the scene, and has to have as many vertices as there.
+    pub fn moved(vertices: impl Into<Vectors<'a>>, triangles: usize) -> Self {
+        let vertices = vertices.into();
+        let raw = sys::rw_triangles {
+            vertex_count: vertices.len() as u64,
+            vertices: vertices.raw(),
+            triangle_count: triangles as u64,
+            ..Default::default()
+        };
+        // SAFETY: the array is borrowed during 'a.
+        unsafe { Self::from_raw(raw) }
+    }
+
     /// Lets triangles with a NaN, infinite or out-of-range vertex or index be never hit, instead of an error. Ids do not
     /// shift. `RW_TRIANGLES_SKIP_INVALID`.
     #[must_use]
