@@ -1,4 +1,5 @@
 // The bounding volume hierarchy in the form rays are traced in: built as a binary tree, then widened to eight children.
+// BvhHigh (bvh_quality.h) is the same of another builder.
 #pragma once
 
 #include "accel/accel.h"
@@ -9,9 +10,9 @@
 
 namespace raywise {
 
-class Bvh final : public Accel {
+class Bvh : public Accel {
 public:
-    explicit Bvh(const BuildInput& input);
+    explicit Bvh(const BuildInput& input) : Bvh(input, BvhQuality::fast) {}
 
     SurfaceHit closest(const PreparedRay& ray) const override;
     bool any(const PreparedRay& ray) const override;
@@ -21,6 +22,9 @@ public:
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
     const WideBvh& tree() const { return tree_; }
+
+protected:
+    Bvh(const BuildInput& input, BvhQuality quality);
 
 private:
     const Primitives& primitives_;
