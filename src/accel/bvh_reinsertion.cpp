@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::uint32_t root = 0;
 
-// The search for one node's place looks at no more nodes than that. On average it looks at 15 (scanned meshes) to 150.
-constexpr int most_steps = 1000;
+// The search for one node's place looks at no more nodes than that. On average it looks at 15 (scanned meshes) to 150; 1000 take
+// less than 0.01 % more off the cost.
+constexpr int most_steps = 200;
 
 // Less, as a part of the node's own area, is rounding.
 constexpr double least_gain = 1e-6;

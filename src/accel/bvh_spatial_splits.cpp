@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -107,7 +106,7 @@ private:
         return CuttableTriangle(corners);
     }
 
-    // Bins of equal width along one axis, and the planes between them.
+    // Bins of equal width along an axis, and the planes between them.
     struct SpatialBins {
         bool divides = false; // false where the axis is too short
         double lower = 0.0;
@@ -156,35 +155,30 @@ private:
         }
     };
 
-    // A reference is cut at every plane between two bins that it lies across.
+    // Only across the longest axis: with the other two as well trees cost the same within 0.1 %, and building them takes twice as
+    // long. A reference is cut at every plane between two bins that it lies across.
     SpatialSplit find_spatial_split(const SplitTask& task) const {
-        std::array<SpatialBins, 3> axes = {SpatialBins(task.bounds, 0), SpatialBins(task.bounds, 1),
-                                           SpatialBins(task.bounds, 2)};
+        const int axis = longest_axis(task.bounds);
+        SpatialSplit best;
+        SpatialBins bins(task.bounds, axis);
+        if (!bins.divides) return best;
         for (const BuildItem& item : task.items) {
-            const Bounds box = Bounds::of(item);
-            std::optional<CuttableTriangle> cuttable;
-            for (int axis = 0; axis < 3; ++axis) {
-                SpatialBins& bins = axes[static_cast<std::size_t>(axis)];
-                if (!bins.divides) continue;
-                const auto first = static_cast<std::size_t>(bins.bin_of(item.lower[axis]));
-                const auto last = static_cast<std::size_t>(bins.bin_of(item.upper[axis]));
-                ++bins.entries[first];
-                ++bins.exits[last];
-                Bounds rest = box;
-                if (first != last && !cuttable) cuttable = triangle(item);
+            const auto first = static_cast<std::size_t>(bins.bin_of(item.lower[axis]));
+            const auto last = static_cast<std::size_t>(bins.bin_of(item.upper[axis]));
+            ++bins.entries[first];
+            ++bins.exits[last];
+            Bounds rest = Bounds::of(item);
+            if (first != last) {
+                const CuttableTriangle cuttable = triangle(item);
                 for (std::size_t bin = first; bin < last; ++bin) {
-                    const CuttableTriangle::Sides sides = cuttable->cut(rest, axis, bins.planes[bin + 1]);
+                    const CuttableTriangle::Sides sides = cuttable.cut(rest, axis, bins.planes[bin + 1]);
                     bins.bounds[bin].extend(sides.below);
                     rest = sides.above;
                 }
-                bins.bounds[last].extend(rest);
             }
+            bins.bounds[last].extend(rest);
         }
-        SpatialSplit best;
-        for (int axis = 0; axis < 3; ++axis) {
-            const SpatialBins& bins = axes[static_cast<std::size_t>(axis)];
-            if (bins.divides) bins.find_best(costs_, axis, best);
-        }
+        bins.find_best(costs_, axis, best);
         return best;
     }
 
