@@ -1,4 +1,5 @@
 // The bounding volume hierarchy in the form rays are traced in: built as a binary tree, then widened to eight children.
+// BvhHigh (bvh_quality.h) is the same of another builder.
 #pragma once
 
 #include "accel/accel.h"
@@ -10,9 +11,9 @@
 
 namespace raywise {
 
-class Bvh final : public Accel {
+class Bvh : public Accel {
 public:
-    explicit Bvh(const BuildInput& input);
+    explicit Bvh(const BuildInput& input) : Bvh(input, BvhQuality::fast) {}
 
     SurfaceHit closest(const PreparedRay& ray) const override;
     bool any(const PreparedRay& ray) const override;
@@ -26,6 +27,9 @@ public:
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
     Refitted refitted(const BuildInput& input, double most) const override;
     const WideBvh& tree() const { return tree_; }
+
+protected:
+    Bvh(const BuildInput& input, BvhQuality quality);
 
 private:
     Bvh(const Primitives& primitives, WideBvh tree) : primitives_(primitives), tree_(std::move(tree)) {}

@@ -5,42 +5,102 @@
 #include "accel/bvh_build_morton.h"
 #include "accel/bvh_build_references.h"
 #include "accel/bvh_build_top_down.h"
+#include "accel/bvh_reinsertion.h"
 #include "accel/bvh_spatial_splits.h"
 #include "accel/scene_frame.h"
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <utility>
 
 namespace raywise {
+namespace {
 
-BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOptions& options) {
-    BvhTree tree;
-    if (input.primitives.hittable_count() == 0) return tree;
+using Report = std::function<void(std::uint64_t)>;
 
-    // Each primitive is reported once where it is gathered, where it is clustered, and in the end.
-    std::atomic<std::uint64_t> done{0};
-    const double whole = 3.0 * static_cast<double>(input.primitives.hittable_count());
-    const std::function<void(std::uint64_t)> report = [&](std::uint64_t primitives) {
-        const double work = static_cast<double>(done += primitives);
-        input.progress.report(progress_end * std::min(1.0, work / whole), "bvh");
-    };
+// Cutting primitives takes three to six times as long as not cutting them, and pays where boxes overlap much: at 0.15 (scanned
+// meshes) to 0.26 (soups of small triangles) it takes 0 to 1 % off the cost of a tree, at 0.45 (long thin triangles) 6 %. Measured
+// with trees after reinsertion, 2026-11-26: docs/decisions/0011-bvh-builders.md.
+constexpr double overlap_to_cut = 0.35;
 
-    const TreeCosts costs(input, options);
-    tree.center = SceneFrame::choose_center(input.primitives.bounds());
-    BuildReferences references = gather_references(input, tree.center, report);
-    if (options.quality == BvhQuality::high) {
-        build_with_spatial_splits(std::move(references), input, costs, report, tree);
-        return tree;
+// References take memory too: a tree of cut primitives has to cost less by that part.
+constexpr double least_gain_by_cutting = 0.01;
+
+// What the boxes of siblings share, as a part of the boxes around both; by areas, over the whole tree.
+double sibling_overlap(const BvhTree& tree) {
+    double shared = 0.0;
+    double whole = 0.0;
+    for (const BvhPair& pair : tree.pairs) {
+        double common[3];
+        double both[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const float* const lower[2] = {pair.child[0].planes[0], pair.child[1].planes[0]};
+            const float* const upper[2] = {pair.child[0].planes[1], pair.child[1].planes[1]};
+            both[axis] = static_cast<double>(std::max(upper[0][axis], upper[1][axis])) -
+                         static_cast<double>(std::min(lower[0][axis], lower[1][axis]));
+            common[axis] = static_cast<double>(std::min(upper[0][axis], upper[1][axis])) -
+                           static_cast<double>(std::max(lower[0][axis], lower[1][axis]));
+        }
+        const auto half_area = [](const double* e) { return e[0] * e[1] + e[1] * e[2] + e[2] * e[0]; };
+        whole += half_area(both);
+        if (std::min({common[0], common[1], common[2]}) >= 0.0) shared += half_area(common);
     }
+    return whole > 0.0 ? shared / whole : 0.0;
+}
+
+BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const Vec3& center, const Report& report) {
+    BuildReferences references = gather_references(input, center, report);
     const Bounds bounds = references.bounds;
     const std::uint32_t count = references.count;
     auto order = morton_order(references.items.data(), std::move(references.keys), count, input.parallel);
     Clusters clusters(std::move(references.items), std::move(order), count);
     clusters.build(bounds, input.parallel, report);
+    BvhTree tree;
+    tree.center = center;
     tree.references.resize(count);
     build_top_down(clusters, bounds, costs, input.parallel, report, tree);
     return tree;
+}
+
+struct TreeAndCost {
+    BvhTree tree;
+    double cost;
+};
+
+TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeCosts& costs, const Vec3& center,
+                             const Report& report) {
+    TreeAndCost result;
+    result.tree.center = center;
+    build_with_spatial_splits(gather_references(input, center, report), budget, input, costs, report, result.tree);
+    result.cost = optimise_by_reinsertion(result.tree, costs, input.parallel, report);
+    return result;
+}
+
+BvhTree build_high(const BuildInput& input, const TreeCosts& costs, const Vec3& center, const Report& report) {
+    TreeAndCost whole = build_from_above(0.0, input, costs, center, report);
+    if (sibling_overlap(whole.tree) < overlap_to_cut) return std::move(whole.tree);
+    TreeAndCost cut = build_from_above(split_budget, input, costs, center, report);
+    const bool pays = cut.cost < (1.0 - least_gain_by_cutting) * whole.cost;
+    return std::move(pays ? cut.tree : whole.tree);
+}
+
+} // namespace
+
+BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOptions& options) {
+    if (input.primitives.hittable_count() == 0) return {};
+
+    // Each primitive is reported three times for a tree, and two trees may be built for the high quality.
+    std::atomic<std::uint64_t> done{0};
+    const bool is_high = options.quality == BvhQuality::high;
+    const double whole = (is_high ? 6.0 : 3.0) * static_cast<double>(input.primitives.hittable_count());
+    const Report report = [&](std::uint64_t primitives) {
+        const double work = static_cast<double>(done += primitives);
+        input.progress.report(progress_end * std::min(1.0, work / whole), "bvh");
+    };
+    const TreeCosts costs(input, options);
+    const Vec3 center = SceneFrame::choose_center(input.primitives.bounds());
+    return is_high ? build_high(input, costs, center, report) : build_fast(input, costs, center, report);
 }
 
 } // namespace raywise

@@ -46,7 +46,7 @@ struct BvhTree {
 
 enum class BvhQuality {
     fast, // clusters from below, split from above
-    high  // split from above down to the primitives, which may be cut in two: slower to build, faster to trace
+    high // split from above down to the primitives, which may be cut in two, and nodes moved: slower to build, faster to trace
 };
 
 struct BvhBuildOptions {
@@ -59,9 +59,10 @@ struct BvhBuildOptions {
 };
 
 // Builds the tree. Fast: nearest primitives are merged from below (bvh_build_clusters.h), and the clusters split from above
-// by the surface area heuristic (bvh_build_top_down.h). High: bvh_spatial_splits.h; a primitive can be among the references
-// more than once. The same tree for any number of threads and every instruction set. Progress is reported from 0 to
-// `progress_end`.
+// by the surface area heuristic (bvh_build_top_down.h). High: split from above down to the primitives
+// (bvh_spatial_splits.h), then nodes move to where they cost less (bvh_reinsertion.h); where boxes overlap much, once more with
+// primitives cut, and the better of both is taken. A primitive can then be among the references more than once. The same
+// tree for any number of threads and every instruction set. Progress is reported from 0 to `progress_end`.
 BvhTree build_bvh(const BuildInput& input, double progress_end = 1.0, const BvhBuildOptions& options = {});
 
 } // namespace raywise

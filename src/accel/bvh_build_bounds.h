@@ -79,6 +79,12 @@ struct Bounds {
     }
 };
 
+inline int longest_axis(const Bounds& bounds) {
+    const Lanes extent = bounds.upper - bounds.lower;
+    const int xy = extent[0] >= extent[1] ? 0 : 1;
+    return extent[xy] >= extent[2] ? xy : 2;
+}
+
 // first and count as in BvhNode.
 inline BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
     BvhNode node;

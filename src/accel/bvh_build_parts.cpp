@@ -13,12 +13,6 @@ int ceil_log2(std::uint32_t n) {
     return log;
 }
 
-int longest_axis(const Bounds& bounds) {
-    const Lanes extent = bounds.upper - bounds.lower;
-    const int xy = extent[0] >= extent[1] ? 0 : 1;
-    return extent[xy] >= extent[2] ? xy : 2;
-}
-
 // A child that is still as large as its parent.
 Part child_of(const Part& part, const Bounds& bounds) {
     return {part.begin, part.end, part.first, part.primitives, part.depth + 1, bounds, Bounds::none()};

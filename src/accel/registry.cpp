@@ -1,6 +1,7 @@
 // From a structure's name to its class: the one place that includes them all.
 #include "accel/accel.h"
 #include "accel/bvh.h"
+#include "accel/bvh_quality.h"
 #include "accel/kd_tree.h"
 #include "accel/linear_scan.h"
 #include "accel/projected_bvh.h"

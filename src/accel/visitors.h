@@ -53,6 +53,14 @@ private:
     bool found_ = false;
 };
 
+// Of the hits from `first` on, as structures collect them that meet a primitive in several places.
+inline void remove_repeats(std::vector<PrimitiveHit>& hits, std::size_t first) {
+    const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(begin, hits.end());
+    const auto same = [](const PrimitiveHit& a, const PrimitiveHit& b) { return a.primitive == b.primitive; };
+    hits.erase(std::unique(begin, hits.end(), same), hits.end());
+}
+
 class AllVisitor {
 public:
     AllVisitor(const Primitives& primitives, const PreparedRay& ray, std::vector<PrimitiveHit>& hits)
@@ -66,14 +74,7 @@ public:
     double limit() const { return ray_.tmax; }
 
     // Structures that split space meet a primitive in several cells.
-    void remove_repeats() {
-        const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(first_);
-        std::sort(first, hits_.end());
-        hits_.erase(
-            std::unique(first, hits_.end(),
-                        [](const PrimitiveHit& a, const PrimitiveHit& b) { return a.primitive == b.primitive; }),
-            hits_.end());
-    }
+    void remove_repeats() { raywise::remove_repeats(hits_, first_); }
 
 private:
     const Primitives& primitives_;

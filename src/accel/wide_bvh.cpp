@@ -88,6 +88,7 @@ public:
         });
         assemble();
         bvh_.exact = exact_;
+        bvh_.repeats = tree_.references.size() > input_.primitives.hittable_count();
         bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
     }

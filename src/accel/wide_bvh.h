@@ -63,6 +63,7 @@ struct WideBvh {
     PageArray<WideNode> nodes;  // the root first, every other one behind its parent; none when nothing can be hit
     PageArray<BlockWord> words; // and as many more as a vector reads beyond the last block
     bool exact = false;         // whether frame.from_frame gives every corner back without loss
+    bool repeats = false;       // whether a primitive may be in several leaves
     double built_cost = 0.0;    // tree_cost() when it was built; geometry may have moved since (wide_bvh_refit.h)
 
     std::size_t bytes() const { return nodes.bytes() + words.bytes(); }

@@ -37,6 +37,7 @@ public:
             if (is_fit_[n] == 0) is_fit_[n] = fit_inner_children(n, old_.nodes.size()) ? 1 : 0;
         }
         bvh_.exact = exact_;
+        bvh_.repeats = old_.repeats;
         bvh_.built_cost = old_.built_cost;
         return std::move(bvh_);
     }

@@ -33,6 +33,7 @@ constexpr CostFunctions table[] = {
     {Structure::kd_tree, n_log_n, log_n, false},
     {Structure::bvh, n_log_n, log_n, false},
     {Structure::projected_bvh, n_log_n, log_n, true},
+    {Structure::bvh_quality, n_log_n, log_n, false},
 };
 
 constexpr bool is_complete() {

@@ -73,6 +73,7 @@ expect 0 measure --quick --force --time-limit 60 --output "$FOLDER/profile.json"
 printed "Saved $FOLDER/profile.json"
 expect 0 show "$FOLDER/profile.json"
 printed "projected_bvh"
+printed "bvh_quality"
 narrow
 expect 0 show "$FOLDER/profile.json" --json
 cmp -s "$FOLDER/out" "$FOLDER/profile.json" || fail "show --json differs from the file"

@@ -136,7 +136,7 @@ static void within_one_process(const char *structure) {
 }
 
 int main(void) {
-    static const char *const structures[] = {"uniform_grid", "kd_tree", "bvh"};
+    static const char *const structures[] = {"uniform_grid", "kd_tree", "bvh", "bvh_quality"};
     rw_scene *judge;
     size_t s;
     int i;

@@ -30,7 +30,7 @@ TEST(CostFunctions, HaveTheExpectedUnits) {
     EXPECT_STREQ(ray_unit_name(Structure::linear_scan), "N");
     EXPECT_STREQ(build_unit_name(Structure::uniform_grid), "N");
     EXPECT_STREQ(ray_unit_name(Structure::uniform_grid), "N^(1/3)");
-    for (const Structure s : {Structure::kd_tree, Structure::bvh, Structure::projected_bvh}) {
+    for (const Structure s : {Structure::kd_tree, Structure::bvh, Structure::projected_bvh, Structure::bvh_quality}) {
         EXPECT_STREQ(build_unit_name(s), "N log2 N");
         EXPECT_STREQ(ray_unit_name(s), "log2 N");
     }

@@ -75,19 +75,25 @@ std::string single_table(const Session& session) {
     for (const Asked& asked : questions) {
         Table table(
             std::string("Single calls, 1 thread, ") + asked.rays + " rays, " + name_of(asked.question) + " hit: Mray/s",
-            {"scene", "triangles", "bvh", "chosen", "", "best peer", "", "ratio", "robust peer"});
+            {"scene", "triangles", "bvh", "chosen", "", "best peer", "", "ratio", "robust peer", "bvh_quality",
+             "E3 HIGH"});
         for (const Cell& cell : session.cells) {
             if (cell.section != "single" || cell.rays != asked.rays || cell.query != name_of(asked.question)) continue;
             const Value* const ours = cell.of(ours_forced);
             const Value* const chosen = cell.of(ours_chosen);
             const Value* const peer = cell.best_peer();
+            const auto speed = [&](const char* subject) {
+                const Value* const value = cell.of(subject);
+                return value != nullptr ? digits(value->value) : "";
+            };
             const Value* const robust = cell.best_peer([](const Value& value) { return value.robust; });
             if (ours == nullptr) continue;
             table.add({cell.scene, with_commas(cell.triangles), digits(ours->value),
                        chosen != nullptr ? digits(chosen->value) : "", chosen != nullptr ? chosen->structure : "",
                        peer != nullptr ? digits(peer->value) : "", peer != nullptr ? peer->subject : "",
                        peer != nullptr ? ratio_text(cell.ratio(*ours, *peer)) : "",
-                       robust != nullptr ? ratio_text(cell.ratio(*ours, *robust)) : ""});
+                       robust != nullptr ? ratio_text(cell.ratio(*ours, *robust)) : "", speed(ours_quality),
+                       speed("Embree 3 HIGH")});
         }
         if (!table.empty()) text += table.text();
     }

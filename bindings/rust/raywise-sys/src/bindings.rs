@@ -1646,7 +1646,8 @@ count: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since:
     pub fn rw_structure_count(count: *mut u32) -> i32;
     /**
 ```text
-Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh".
+Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality". Names stay,
+and so does their order; more may follow.
 index: below the count. name: receives a constant text; not NULL.
 Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
