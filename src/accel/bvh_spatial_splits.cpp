@@ -3,6 +3,7 @@
 #include "accel/bvh_build_kernels.h"
 #include "accel/bvh_build_parts.h"
 #include "accel/bvh_reference_cut.h"
+#include "base/page_array.h"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +25,6 @@ constexpr int spatial_bins = 8; // of 8 and 16 the trees cost the same within 0.
 constexpr std::uint32_t least_job_size = 1024;
 constexpr std::uint32_t jobs_wanted = 64;
 
-Bounds bounds_of(const std::vector<BuildItem>& items) {
-    Bounds bounds = Bounds::none();
-    for (const BuildItem& item : items) bounds.extend(Bounds::of(item));
-    return bounds;
-}
-
 // Zero where they do not meet.
 double overlap_area(const Bounds& a, const Bounds& b) {
     const Bounds both{max_lanes(a.lower, b.lower), min_lanes(a.upper, b.upper)};
@@ -39,14 +34,13 @@ double overlap_area(const Bounds& a, const Bounds& b) {
     return both.half_area();
 }
 
-// A node to be built: its references, and how many more there may be below it.
+// A node to be built: its items, and how many more there may be below it. They have room for as many behind them.
 struct SplitTask {
-    std::vector<BuildItem> items;
-    Bounds bounds;
-    int depth;
+    std::size_t begin;
+    std::uint32_t count;
     std::uint32_t budget;
-
-    std::uint32_t count() const { return static_cast<std::uint32_t>(items.size()); }
+    int depth;
+    Bounds bounds;
 };
 
 struct SpatialSplit {
@@ -57,20 +51,29 @@ struct SpatialSplit {
 
 class TaskSplitter {
 public:
-    TaskSplitter(const BuildInput& input, const TreeCosts& costs, const Vec3& center, double root_area)
-        : input_(input), costs_(costs), center_(center), least_overlap_(least_overlap * root_area) {}
+    // items, scratch: room for those of the root and its budget.
+    TaskSplitter(const BuildInput& input, const TreeCosts& costs, const Vec3& center, double root_area,
+                 BuildItem* items, BuildItem* scratch)
+        : input_(input),
+          costs_(costs),
+          center_(center),
+          least_overlap_(least_overlap * root_area),
+          items_(items),
+          scratch_(scratch) {}
 
-    // Splits a task in two, whose items it gives up, unless it is better off as a leaf.
-    bool split(SplitTask& task, std::array<SplitTask, 2>& halves) const {
-        const std::uint32_t count = task.count();
+    const BuildItem* items(const SplitTask& task) const { return items_ + task.begin; }
+
+    // Splits a task in two, which share its room, unless it is better off as a leaf.
+    bool split(const SplitTask& task, std::array<SplitTask, 2>& halves) const {
+        const std::uint32_t count = task.count;
         if (count == 1) return false;
         const bool may_be_leaf = count <= costs_.max_leaf_size;
         if (may_be_leaf && costs_.blocks(count) == 1) return false;
 
+        BuildItem* const items = items_ + task.begin;
         Part part{0, count, 0, count, task.depth, task.bounds, Bounds::none()};
-        for (const BuildItem& item : task.items) part.centroids.extend(Bounds::of_centroid(item));
-        std::vector<BuildItem> scratch(count);
-        const PartSplitter splitter(task.items.data(), scratch.data(), costs_, bvh_max_depth);
+        for (std::uint32_t i = 0; i < count; ++i) part.centroids.extend(Bounds::of_centroid(items[i]));
+        const PartSplitter splitter(items, scratch_ + task.begin, costs_, bvh_max_depth);
         if (splitter.must_halve(part)) {
             if (may_be_leaf) return false;
             take(task, splitter.halve(part), halves);
@@ -78,7 +81,7 @@ public:
         }
         const Binning binning(part.centroids, Bins::most);
         Bins bins(Bins::most);
-        fill_bins(task.items.data(), count, binning, bins);
+        fill_bins(items, count, binning, bins);
         const BinSplit object = best_split(bins, task.bounds, costs_);
 
         const double area = task.bounds.half_area();
@@ -162,7 +165,8 @@ private:
         SpatialSplit best;
         SpatialBins bins(task.bounds, axis);
         if (!bins.divides) return best;
-        for (const BuildItem& item : task.items) {
+        for (std::uint32_t i = 0; i < task.count; ++i) {
+            const BuildItem& item = items_[task.begin + i];
             const auto first = static_cast<std::size_t>(bins.bin_of(item.lower[axis]));
             const auto last = static_cast<std::size_t>(bins.bin_of(item.upper[axis]));
             ++bins.entries[first];
@@ -182,92 +186,125 @@ private:
         return best;
     }
 
-    // Puts the references on the two sides of the plane. Fails when that would add more references than there may be, or
-    // leave a side without any.
-    bool cut(SplitTask& task, const SpatialSplit& split, std::array<SplitTask, 2>& halves) const {
-        const auto is_below = [&](const BuildItem& item) { return item.upper[split.axis] <= split.position; };
-        const auto is_above = [&](const BuildItem& item) { return item.lower[split.axis] >= split.position; };
-        const auto parts_of = [&](const BuildItem& item) {
-            return triangle(item).cut(Bounds::of(item), split.axis, split.position);
-        };
+    enum class Side : unsigned char {
+        below,
+        above,
+        both
+    };
+
+    CuttableTriangle::Sides parts_of(const BuildItem& item, const SpatialSplit& split) const {
+        return triangle(item).cut(Bounds::of(item), split.axis, split.position);
+    }
+
+    // Where each item goes: below the plane, above it, or in parts to both. What is on both sides of the plane may be whole
+    // on one where that costs less (the paper's reference unsplitting).
+    std::vector<Side> sides_of(const SplitTask& task, const SpatialSplit& split) const {
+        const BuildItem* const items = items_ + task.begin;
+        std::vector<Side> sides(task.count);
         Bounds bounds[2] = {Bounds::none(), Bounds::none()};
-        std::size_t most[2] = {0, 0};
-        for (const BuildItem& item : task.items) {
-            const bool below = is_below(item);
-            const bool above = !below && is_above(item);
-            if (!above) ++most[0];
-            if (!below) ++most[1];
-            if (below || above) {
-                bounds[above ? 1 : 0].extend(Bounds::of(item));
+        double counts[2] = {0.0, 0.0};
+        for (std::uint32_t i = 0; i < task.count; ++i) {
+            const BuildItem& item = items[i];
+            if (item.upper[split.axis] <= split.position) {
+                sides[i] = Side::below;
+            } else if (item.lower[split.axis] >= split.position) {
+                sides[i] = Side::above;
             } else {
-                const CuttableTriangle::Sides parts = parts_of(item);
+                sides[i] = Side::both;
+                const CuttableTriangle::Sides parts = parts_of(item, split);
                 bounds[0].extend(parts.below);
                 bounds[1].extend(parts.above);
-            }
-        }
-        std::vector<BuildItem> sides[2];
-        for (int side = 0; side < 2; ++side) sides[side].reserve(most[side]);
-        double counts[2] = {static_cast<double>(most[0]), static_cast<double>(most[1])};
-        std::uint32_t added = 0;
-        for (const BuildItem& item : task.items) {
-            const bool below = is_below(item);
-            if (below || is_above(item)) {
-                sides[below ? 0 : 1].push_back(item);
+                counts[0] += 1.0;
+                counts[1] += 1.0;
                 continue;
             }
-            // It may be whole on the one side where that costs less (the paper's reference unsplitting).
-            const Bounds whole = Bounds::of(item);
+            const int side = sides[i] == Side::below ? 0 : 1;
+            bounds[side].extend(Bounds::of(item));
+            counts[side] += 1.0;
+        }
+        std::uint32_t added = 0;
+        for (std::uint32_t i = 0; i < task.count; ++i) {
+            if (sides[i] != Side::both) continue;
             Bounds wider[2] = {bounds[0], bounds[1]};
-            for (Bounds& side : wider) side.extend(whole);
+            for (Bounds& side : wider) side.extend(Bounds::of(items[i]));
             const double areas[2] = {bounds[0].half_area(), bounds[1].half_area()};
             const double both = areas[0] * counts[0] + areas[1] * counts[1];
-            const double left = wider[0].half_area() * counts[0] + areas[1] * (counts[1] - 1.0);
-            const double right = areas[0] * (counts[0] - 1.0) + wider[1].half_area() * counts[1];
-            if (both < left && both < right && added < task.budget) {
-                const CuttableTriangle::Sides parts = parts_of(item); // again: kept, they would take most of the memory
-                sides[0].push_back(parts.below.item(item.id, 1));
-                sides[1].push_back(parts.above.item(item.id, 1));
+            const double below = wider[0].half_area() * counts[0] + areas[1] * (counts[1] - 1.0);
+            const double above = areas[0] * (counts[0] - 1.0) + wider[1].half_area() * counts[1];
+            if (both < below && both < above && added < task.budget) {
                 ++added;
                 continue;
             }
-            const int side = left <= right ? 0 : 1;
-            sides[side].push_back(item);
+            sides[i] = below <= above ? Side::below : Side::above;
+            const int side = below <= above ? 0 : 1;
             bounds[side] = wider[side];
             counts[1 - side] -= 1.0;
         }
-        if (sides[0].empty() || sides[1].empty()) return false;
+        return sides;
+    }
+
+    // Fails when a side would be left without any items.
+    bool cut(const SplitTask& task, const SpatialSplit& split, std::array<SplitTask, 2>& halves) const {
+        const std::vector<Side> sides = sides_of(task, split);
+        const auto count = [&](Side side) {
+            return static_cast<std::uint32_t>(std::count(sides.begin(), sides.end(), side));
+        };
+        const std::uint32_t added = count(Side::both);
+        halves[0].count = count(Side::below) + added;
+        halves[1].count = count(Side::above) + added;
+        if (halves[0].count == 0 || halves[1].count == 0) return false;
         // A side as large as the whole gains nothing and could go on for ever.
-        if (sides[0].size() >= task.items.size() && sides[1].size() >= task.items.size()) return false;
-        for (int side = 0; side < 2; ++side) {
-            SplitTask& half = halves[static_cast<std::size_t>(side)];
-            half.items = std::move(sides[side]);
-            half.bounds = bounds_of(half.items);
-        }
+        if (halves[0].count >= task.count && halves[1].count >= task.count) return false;
         share(task, task.budget - added, halves);
+
+        for (SplitTask& half : halves) half.bounds = Bounds::none();
+        BuildItem* below = items_ + task.begin; // what has been read makes room
+        BuildItem* above = scratch_ + task.begin;
+        const auto put = [&](int side, const BuildItem& item) {
+            *(side == 0 ? below : above)++ = item;
+            halves[static_cast<std::size_t>(side)].bounds.extend(Bounds::of(item));
+        };
+        for (std::uint32_t i = 0; i < task.count; ++i) {
+            const BuildItem item = items_[task.begin + i];
+            if (sides[i] == Side::both) {
+                const CuttableTriangle::Sides parts = parts_of(item, split); // again: kept, they would take much memory
+                put(0, parts.below.item(item.id, 1));
+                put(1, parts.above.item(item.id, 1));
+            } else {
+                put(sides[i] == Side::below ? 0 : 1, item);
+            }
+        }
+        std::copy(scratch_ + task.begin, above, items_ + halves[1].begin);
         return true;
     }
 
-    static void take(SplitTask& task, const Halves& parts, std::array<SplitTask, 2>& halves) {
-        halves[1].items.assign(task.items.begin() + parts.second.begin, task.items.end());
-        halves[1].bounds = parts.second.bounds;
-        task.items.resize(parts.first.end);
-        halves[0].items = std::move(task.items);
+    // The two sides lie one behind the other.
+    void take(const SplitTask& task, const Halves& parts, std::array<SplitTask, 2>& halves) const {
+        halves[0].count = parts.first.count();
         halves[0].bounds = parts.first.bounds;
+        halves[1].count = parts.second.count();
+        halves[1].bounds = parts.second.bounds;
         share(task, task.budget, halves);
+        BuildItem* const second = items_ + task.begin + parts.second.begin;
+        std::copy_backward(second, second + halves[1].count, items_ + halves[1].begin + halves[1].count);
     }
 
-    static void share(SplitTask& task, std::uint32_t budget, std::array<SplitTask, 2>& halves) {
-        const std::uint64_t all = std::uint64_t{halves[0].count()} + halves[1].count();
-        halves[0].budget = static_cast<std::uint32_t>(std::uint64_t{budget} * halves[0].count() / all);
+    // Shares budget and room in proportion to the items.
+    static void share(const SplitTask& task, std::uint32_t budget, std::array<SplitTask, 2>& halves) {
+        const std::uint64_t all = std::uint64_t{halves[0].count} + halves[1].count;
+        halves[0].budget = static_cast<std::uint32_t>(std::uint64_t{budget} * halves[0].count / all);
         halves[1].budget = budget - halves[0].budget;
+        halves[0].begin = task.begin;
+        halves[1].begin = task.begin + halves[0].count + halves[0].budget;
         for (SplitTask& half : halves) half.depth = task.depth + 1;
-        task.items = {};
     }
 
     const BuildInput& input_;
     const TreeCosts& costs_;
     const Vec3 center_;
     const double least_overlap_;
+    BuildItem* const items_;
+    BuildItem* const scratch_;
 };
 
 // A part of the tree that is built by one thread; its pairs and references are numbered from 0 until all are put together.
@@ -279,18 +316,18 @@ struct Job {
     std::vector<std::uint32_t> references;
 };
 
-BvhNode build_subtree(SplitTask& task, const TaskSplitter& splitter, Job& job) {
+BvhNode build_subtree(const SplitTask& task, const TaskSplitter& splitter, Job& job) {
     std::array<SplitTask, 2> halves;
     if (!splitter.split(task, halves)) {
         const auto first = static_cast<std::uint32_t>(job.references.size());
-        for (const BuildItem& item : task.items) job.references.push_back(item.id);
-        return make_node(task.bounds, first, task.count());
+        const BuildItem* const items = splitter.items(task);
+        for (std::uint32_t i = 0; i < task.count; ++i) job.references.push_back(items[i].id);
+        return make_node(task.bounds, first, task.count);
     }
     const auto pair = static_cast<std::uint32_t>(job.pairs.size());
     job.pairs.emplace_back();
     for (std::size_t child = 0; child < 2; ++child) {
         const BvhNode node = build_subtree(halves[child], splitter, job);
-        halves[child].items = {};
         job.pairs[pair].child[child] = node;
     }
     return make_node(task.bounds, pair, 0);
@@ -302,10 +339,10 @@ public:
                  const std::function<void(std::uint64_t)>& report, BvhTree& tree)
         : input_(input), splitter_(splitter), report_(report), tree_(tree) {}
 
-    void build(SplitTask root) {
-        job_size_ = std::max(least_job_size, root.count() / jobs_wanted);
+    void build(const SplitTask& root) {
+        job_size_ = std::max(least_job_size, root.count / jobs_wanted);
         std::vector<Job> open;
-        open.push_back({std::move(root), 0, no_axis, {}, {}});
+        open.push_back({root, 0, no_axis, {}, {}});
         while (!open.empty()) open = split_level(std::move(open));
         build_jobs();
         assemble();
@@ -318,7 +355,7 @@ private:
         std::vector<char> is_split(open.size(), 0);
         input_.parallel.for_each(open.size(), [&](std::uint64_t i) {
             report_(0);
-            if (open[i].task.count() > job_size_) is_split[i] = splitter_.split(open[i].task, halves[i]) ? 1 : 0;
+            if (open[i].task.count > job_size_) is_split[i] = splitter_.split(open[i].task, halves[i]) ? 1 : 0;
         });
         std::vector<Job> next;
         for (std::size_t i = 0; i < open.size(); ++i) {
@@ -330,7 +367,7 @@ private:
             top_.emplace_back();
             place(open[i], make_node(open[i].task.bounds, pair, 0));
             for (int child = 0; child < 2; ++child) {
-                next.push_back({std::move(halves[i][static_cast<std::size_t>(child)]), pair, child, {}, {}});
+                next.push_back({halves[i][static_cast<std::size_t>(child)], pair, child, {}, {}});
             }
         }
         return next;
@@ -343,15 +380,12 @@ private:
         // The largest first, so that no thread is left with one at the end.
         std::vector<std::uint32_t> order(jobs_.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return jobs_[a].task.count() > jobs_[b].task.count();
-        });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return jobs_[a].task.count > jobs_[b].task.count; });
         input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
             Job& job = jobs_[order[i]];
-            const std::uint32_t count = job.task.count();
             place(job, build_subtree(job.task, splitter_, job));
-            job.task.items = {};
-            report_(std::uint64_t{2} * count);
+            report_(std::uint64_t{2} * job.task.count);
         });
     }
 
@@ -398,14 +432,24 @@ private:
 void build_with_spatial_splits(BuildReferences references, double budget, const BuildInput& input,
                                const TreeCosts& costs, const std::function<void(std::uint64_t)>& report,
                                BvhTree& tree) {
-    SplitTask root{{references.items.data(), references.items.data() + references.count},
-                   references.bounds,
-                   0,
-                   static_cast<std::uint32_t>(budget * references.count)};
-    references = {};
-    root.bounds = bounds_of(root.items);
-    const TaskSplitter splitter(input, costs, tree.center, root.bounds.half_area());
-    SplitBuilder(input, splitter, report, tree).build(std::move(root));
+    references.keys = {};
+    const std::uint32_t count = references.count;
+    const double most_added =
+        std::min(budget * count, static_cast<double>(std::numeric_limits<std::uint32_t>::max() - count));
+    SplitTask root{0, count, static_cast<std::uint32_t>(most_added), 0, Bounds::none()};
+    for (std::uint32_t i = 0; i < count; ++i) root.bounds.extend(Bounds::of(references.items[i]));
+    const std::size_t room = std::size_t{count} + root.budget;
+    PageArray<BuildItem> items;
+    if (root.budget == 0) {
+        items = std::move(references.items);
+    } else {
+        items = PageArray<BuildItem>(room);
+        std::copy_n(references.items.data(), count, items.data());
+        references.items = {};
+    }
+    PageArray<BuildItem> scratch(room);
+    const TaskSplitter splitter(input, costs, tree.center, root.bounds.half_area(), items.data(), scratch.data());
+    SplitBuilder(input, splitter, report, tree).build(root);
 }
 
 } // namespace raywise

@@ -1,6 +1,7 @@
 #include "accel/bvh_quality.h"
 
 #include "accel/bvh_testing.h"
+#include "accel/sticks_testing.h"
 #include "accel/wide_bvh.h"
 
 #include <algorithm>
@@ -11,19 +12,6 @@ namespace raywise {
 namespace {
 
 using namespace bvh_testing;
-
-// Long and thin, in all directions: what is worth cutting.
-Triangles sticks(std::size_t count, unsigned seed, double scale = 1.0, const Vec3& center = Vec3(0.0)) {
-    Random random(seed);
-    Triangles triangles(count);
-    for (Corners& corners : triangles) {
-        const Vec3 a = random.in_cube();
-        const Vec3 b = random.in_cube();
-        corners = {center + scale * a, center + scale * b,
-                   center + scale * (0.5 * a + 0.5 * b + random.in_cube(0.002))};
-    }
-    return triangles;
-}
 
 std::size_t references(const Bvh& bvh) { return (bvh.tree().words.size() - block_size) / words_per_triangle; }
 
@@ -61,7 +49,7 @@ TEST(BvhQuality, NothingToHit) {
 
 // A primitive in several leaves is hit once, and hits that were there before stay.
 TEST(BvhQuality, AllHitsOfPrimitivesThatWereCut) {
-    const Triangles triangles = sticks(20000, 9);
+    const Triangles triangles = short_sticks(20000, 9);
     Scene scene(triangles, 2);
     const BvhHigh bvh(scene.input());
     ASSERT_GT(references(bvh), 22000u);
@@ -88,7 +76,7 @@ TEST(BvhQuality, AllHitsOfPrimitivesThatWereCut) {
 TEST(BvhQuality, CutsOnlyWhatOverlaps) {
     Scene surface(ball(40, 2.0));
     EXPECT_EQ(references(BvhHigh(surface.input())), surface.primitives().hittable_count());
-    Scene crossing(sticks(20000, 11), 2);
+    Scene crossing(short_sticks(20000, 11), 2);
     const std::size_t cut = references(BvhHigh(crossing.input()));
     EXPECT_GT(cut, 22000u);
     EXPECT_LE(cut, 24000u);
@@ -124,7 +112,7 @@ TEST(BvhQuality, ScenesThatBreakBuilders) {
 }
 
 TEST(BvhQuality, ProgressRisesAndCancels) {
-    Scene scene(sticks(20000, 12));
+    Scene scene(short_sticks(20000, 12));
     const Parallel two(2);
     double last = 0.0;
     int calls = 0;
