@@ -19,14 +19,17 @@ typedef struct walled {
     size_t used; /* the last of them */
 } walled;
 
-static walled all_walled[512];
+static walled all_walled[4096];
 static size_t walled_count;
 #define IN_FRONT 0xA5
 
 static void *at_the_wall(size_t size) {
     const size_t page = (size_t)sysconf(_SC_PAGESIZE);
     walled *block = &all_walled[walled_count++];
-    if (walled_count > sizeof all_walled / sizeof all_walled[0]) exit(1);
+    if (walled_count > sizeof all_walled / sizeof all_walled[0]) {
+        fprintf(stderr, "all_walled: too small for what the program asks\n");
+        exit(1);
+    }
     block->used = size;
     block->room = (size + page - 1) / page * page + page;
     block->pages =
