@@ -19,7 +19,7 @@ namespace {
 
 using Report = std::function<void(std::uint64_t)>;
 
-// Cutting primitives takes three to six times as long as not cutting them, and pays where boxes overlap much: at 0.15 (scanned
+// Cutting primitives takes two to six times as long as not cutting them, and pays where boxes overlap much: at 0.15 (scanned
 // meshes) to 0.26 (soups of small triangles) it takes 0 to 1 % off the cost of a tree, at 0.45 (long thin triangles) 6 %. Measured
 // with trees after reinsertion, 2026-11-26: docs/decisions/0011-bvh-builders.md.
 constexpr double overlap_to_cut = 0.35;
