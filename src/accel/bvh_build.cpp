@@ -1,5 +1,6 @@
 #include "accel/bvh_build.h"
 
+#include "accel/bvh_build_bounds.h"
 #include "accel/bvh_build_clusters.h"
 #include "accel/bvh_build_costs.h"
 #include "accel/bvh_build_morton.h"
@@ -32,19 +33,14 @@ double sibling_overlap(const BvhTree& tree) {
     double shared = 0.0;
     double whole = 0.0;
     for (const BvhPair& pair : tree.pairs) {
-        double common[3];
-        double both[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            const float* const lower[2] = {pair.child[0].planes[0], pair.child[1].planes[0]};
-            const float* const upper[2] = {pair.child[0].planes[1], pair.child[1].planes[1]};
-            both[axis] = static_cast<double>(std::max(upper[0][axis], upper[1][axis])) -
-                         static_cast<double>(std::min(lower[0][axis], lower[1][axis]));
-            common[axis] = static_cast<double>(std::min(upper[0][axis], upper[1][axis])) -
-                           static_cast<double>(std::max(lower[0][axis], lower[1][axis]));
-        }
-        const auto half_area = [](const double* e) { return e[0] * e[1] + e[1] * e[2] + e[2] * e[0]; };
-        whole += half_area(both);
-        if (std::min({common[0], common[1], common[2]}) >= 0.0) shared += half_area(common);
+        const Bounds a = bounds_of(pair.child[0]);
+        const Bounds b = bounds_of(pair.child[1]);
+        Bounds both = a;
+        both.extend(b);
+        whole += both.half_area();
+        const Bounds common{max_lanes(a.lower, b.lower), min_lanes(a.upper, b.upper)};
+        const IntLanes apart = common.upper < common.lower;
+        if ((apart[0] | apart[1] | apart[2]) == 0) shared += common.half_area();
     }
     return whole > 0.0 ? shared / whole : 0.0;
 }

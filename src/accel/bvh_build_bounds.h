@@ -85,6 +85,11 @@ inline int longest_axis(const Bounds& bounds) {
     return extent[xy] >= extent[2] ? xy : 2;
 }
 
+inline Bounds bounds_of(const BvhNode& node) {
+    return {Lanes{node.planes[0][0], node.planes[0][1], node.planes[0][2], 0.0f},
+            Lanes{node.planes[1][0], node.planes[1][1], node.planes[1][2], 0.0f}};
+}
+
 // first and count as in BvhNode.
 inline BvhNode make_node(const Bounds& bounds, std::uint32_t first, std::uint32_t count) {
     BvhNode node;

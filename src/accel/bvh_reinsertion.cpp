@@ -97,8 +97,7 @@ private:
         node.parent = parent;
         node.is_leaf = from.is_leaf();
         if (from.is_leaf()) {
-            node.box = {Lanes{from.planes[0][0], from.planes[0][1], from.planes[0][2], 0.0f},
-                        Lanes{from.planes[1][0], from.planes[1][1], from.planes[1][2], 0.0f}};
+            node.box = bounds_of(from);
             node.area = node.box.half_area();
             node.child[0] = from.first;
             node.child[1] = from.count;

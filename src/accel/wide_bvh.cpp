@@ -1,6 +1,7 @@
 // From the binary tree to the wide one: a node takes in its descendants, the largest first, until it has eight children.
 #include "accel/wide_bvh.h"
 
+#include "accel/bvh_build_bounds.h"
 #include "accel/wide_bvh_write.h"
 
 #include <algorithm>
@@ -53,13 +54,6 @@ private:
     const BvhTree& tree_;
     std::vector<Extent> of_pair_;
 };
-
-double half_area(const BvhNode& node) {
-    const double x = static_cast<double>(node.planes[1][0]) - static_cast<double>(node.planes[0][0]);
-    const double y = static_cast<double>(node.planes[1][1]) - static_cast<double>(node.planes[0][1]);
-    const double z = static_cast<double>(node.planes[1][2]) - static_cast<double>(node.planes[0][2]);
-    return x * y + y * z + z * x;
-}
 
 using Children = std::vector<Subtree>;
 
@@ -155,7 +149,7 @@ private:
                 const Subtree& child = children[i];
                 if (child.node->is_leaf()) continue;
                 const bool leaf = is_leaf(child);
-                const double cost = half_area(*child.node) * (leaf ? child.count : 1.0);
+                const double cost = bounds_of(*child.node).half_area() * (leaf ? child.count : 1.0);
                 if (leaf == best_is_leaf ? cost > best_cost : best_is_leaf) {
                     best = i;
                     best_is_leaf = leaf;

@@ -45,6 +45,8 @@ struct alignas(64) WideNode {
 static_assert(sizeof(WideNode) == 256);
 
 inline constexpr float absent_plane = 0x1p100f; // lower; upper is its negative
+// A child without a box, too, because nothing in it can be hit any more.
+inline bool is_absent(const WideNode& node, std::uint32_t i) { return node.planes[0][0][i] == absent_plane; }
 
 // Triangles lie in the order of the leaves. Each leaf is cut into blocks of eight triangles and a last one of n <= 8; a block is nine
 // lines of n coordinates, x y z of the first corners, then of the second and the third, and a line of n primitive numbers. So

@@ -17,9 +17,6 @@ inline void set_absent(WideNode& node, std::uint32_t i) {
     }
 }
 
-// A child without a box, too, because nothing in it can be hit any more.
-inline bool is_absent(const WideNode& node, std::uint32_t i) { return node.planes[0][0][i] == absent_plane; }
-
 // lower, upper: in the coordinates of the frame.
 inline void set_box(WideNode& node, std::uint32_t i, const Vec3& lower, const Vec3& upper) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -143,7 +143,7 @@ private:
             exit_planes[axis] = node.planes[axis][backwards ^ 1u];
         }
         std::uint32_t children = wide_bvh_width;
-        while (children > 0 && node.planes[0][0][children - 1] == absent_plane) --children;
+        while (children > 0 && is_absent(node, children - 1)) --children;
 
         for (std::uint32_t k = 0; k < group.count; k += ray_lanes) {
             const auto present = hn::FirstN(du, std::min<std::size_t>(group.count - k, ray_lanes));

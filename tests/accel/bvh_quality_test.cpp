@@ -35,16 +35,8 @@ TEST(BvhQuality, SameAnswers) {
 }
 
 TEST(BvhQuality, NothingToHit) {
-    for (const Triangles& triangles : {Triangles{}, Triangles(5, {Vec3(1.0), Vec3(1.0), Vec3(2.0)})}) {
-        Scene scene(triangles);
-        const BvhHigh bvh(scene.input());
-        const PreparedRay ray({Vec3(0.0), 0.0, Vec3(1.0), infinity}, scene.bounds());
-        std::vector<PrimitiveHit> hits;
-        bvh.all(ray, hits);
-        EXPECT_FALSE(bvh.closest(ray).is_hit());
-        EXPECT_FALSE(bvh.any(ray));
-        EXPECT_TRUE(hits.empty());
-    }
+    for (const Triangles& triangles : {Triangles{}, Triangles(5, {Vec3(1.0), Vec3(1.0), Vec3(2.0)})})
+        expect_nothing_to_hit<BvhHigh>(triangles);
 }
 
 // A primitive in several leaves is hit once, and hits that were there before stay.

@@ -23,17 +23,8 @@ void expect_same_answers(const Triangles& triangles, int rays, unsigned seed) {
 }
 
 TEST(Bvh, NothingToHit) {
-    for (const Triangles& triangles : {Triangles{}, Triangles{{Vec3(0.0), Vec3(1.0), Vec3(2.0)}}}) {
-        Scene scene(triangles);
-        const Bvh bvh(scene.input());
-        const PreparedRay ray({Vec3(0.0), 0.0, Vec3(1.0), infinity}, scene.bounds());
-        std::vector<PrimitiveHit> hits;
-        bvh.all(ray, hits);
-        EXPECT_FALSE(bvh.closest(ray).is_hit());
-        EXPECT_FALSE(bvh.any(ray));
-        EXPECT_TRUE(hits.empty());
-        EXPECT_GT(bvh.bytes(), 0u);
-    }
+    for (const Triangles& triangles : {Triangles{}, Triangles{{Vec3(0.0), Vec3(1.0), Vec3(2.0)}}})
+        expect_nothing_to_hit<Bvh>(triangles);
 }
 
 TEST(Bvh, OneTriangle) {

@@ -81,6 +81,20 @@ inline std::string text_of(const Ray& ray) {
     return text;
 }
 
+// Of triangles none of which can be hit.
+template <class Structure>
+void expect_nothing_to_hit(const Triangles& triangles) {
+    Scene scene(triangles);
+    const Structure structure(scene.input());
+    const PreparedRay ray({Vec3(0.0), 0.0, Vec3(1.0), infinity}, scene.bounds());
+    std::vector<PrimitiveHit> hits;
+    structure.all(ray, hits);
+    EXPECT_FALSE(structure.closest(ray).is_hit());
+    EXPECT_FALSE(structure.any(ray));
+    EXPECT_TRUE(hits.empty());
+    EXPECT_GT(structure.bytes(), 0u);
+}
+
 // Closest, any and all against the linear scan. Returns whether the ray hits something.
 template <class Structure>
 bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {

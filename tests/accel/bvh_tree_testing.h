@@ -3,6 +3,7 @@
 
 #include "accel/binary_traversal.h"
 #include "accel/bvh_build.h"
+#include "accel/bvh_build_bounds.h"
 #include "accel/bvh_build_costs.h"
 #include "accel/bvh_testing.h"
 
@@ -43,17 +44,11 @@ inline TreeShape shape_of(const BvhTree& tree) {
     return shape;
 }
 
-inline double half_area(const BvhNode& node) {
-    const auto size = [&](int axis) {
-        return static_cast<double>(node.planes[1][axis]) - static_cast<double>(node.planes[0][axis]);
-    };
-    return size(0) * size(1) + size(1) * size(2) + size(2) * size(0);
-}
-
 // What a ray that meets the root is taken to cost, in the unit of the costs: the surface area heuristic over the whole tree.
 inline double tree_cost(const BvhTree& tree, const TreeCosts& costs) {
     const auto cost = [&](const BvhNode& node) {
-        return half_area(node) / half_area(tree.root) * (node.is_leaf() ? costs.leaf(node.count) : costs.node);
+        return bounds_of(node).half_area() / bounds_of(tree.root).half_area() *
+               (node.is_leaf() ? costs.leaf(node.count) : costs.node);
     };
     double sum = cost(tree.root);
     for (const BvhPair& pair : tree.pairs) sum += cost(pair.child[0]) + cost(pair.child[1]);

@@ -221,7 +221,7 @@ TEST(WideBvh, EveryTriangleIsInOneLeaf) {
         for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
             const WideNode& node = tree.nodes[n];
             for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-                if (node.planes[0][0][i] == absent_plane) continue;
+                if (is_absent(node, i)) continue;
                 const WideReference child = node.child[i];
                 if (!child.is_leaf()) {
                     EXPECT_GT(child.index(), n) << "parents come before their children";

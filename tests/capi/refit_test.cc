@@ -16,6 +16,15 @@ namespace {
 
 constexpr uint64_t triangle_count = 400;
 
+rw_triangles describe_vertices(const std::vector<double>& vertices) {
+    rw_triangles t{};
+    t.struct_size = sizeof t;
+    t.vertex_count = vertices.size() / 3;
+    t.vertices.data = vertices.data();
+    t.vertices.type = RW_FLOAT64;
+    return t;
+}
+
 // A mesh with shared vertices, a second one of single triangles, as float64.
 struct Geometry {
     std::vector<double> sheet; // (side + 1)^2 vertices
@@ -23,21 +32,13 @@ struct Geometry {
     std::vector<double> soup; // 3 per triangle
 
     rw_triangles describe_sheet() const {
-        rw_triangles t{};
-        t.struct_size = sizeof t;
-        t.vertex_count = sheet.size() / 3;
-        t.vertices.data = sheet.data();
-        t.vertices.type = RW_FLOAT64;
+        rw_triangles t = describe_vertices(sheet);
         t.triangle_count = sheet_indices.size() / 3;
         t.indices.data = sheet_indices.data();
         return t;
     }
     rw_triangles describe_soup() const {
-        rw_triangles t{};
-        t.struct_size = sizeof t;
-        t.vertex_count = soup.size() / 3;
-        t.vertices.data = soup.data();
-        t.vertices.type = RW_FLOAT64;
+        rw_triangles t = describe_vertices(soup);
         t.triangle_count = soup.size() / 9;
         return t;
     }
