@@ -215,13 +215,7 @@ TEST(Refit, ProgressEndsAtItsEnd) {
     for (const Structure structure : all_structures()) {
         const auto scene = forced(soup, structure);
         double last = -1.0;
-        Progress progress([&](double fraction, const char* stage) {
-            EXPECT_GE(fraction, 0.0);
-            EXPECT_LE(fraction, 1.0);
-            EXPECT_NE(stage, nullptr);
-            last = fraction;
-            return false;
-        });
+        Progress progress(expect_within_ends(last));
         scene->refitted({{soup.arrays(), true, false, ""}}, Parallel(2), progress);
         EXPECT_EQ(last, 1.0) << name_of(structure);
         Progress stop([](double, const char*) { return true; });

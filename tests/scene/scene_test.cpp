@@ -68,13 +68,7 @@ TEST(Scene, ReportsProgressThatNeverGoesBeyondItsEnds) {
     const Soup soup = make_soup(5000);
     for (const Structure structure : all_structures()) {
         double last = -1.0;
-        Progress progress([&](double fraction, const char* stage) {
-            EXPECT_GE(fraction, 0.0);
-            EXPECT_LE(fraction, 1.0);
-            EXPECT_NE(stage, nullptr);
-            last = fraction;
-            return false;
-        });
+        Progress progress(expect_within_ends(last));
         Scene scene(generic());
         scene.add_triangles(soup.arrays(), true, false);
         scene.set_structure(structure);

@@ -1,5 +1,7 @@
 #include "scene/testing.h"
 
+#include <gtest/gtest.h>
+
 #include <cstring>
 #include <random>
 #include <utility>
@@ -24,6 +26,16 @@ Soup make_soup(std::uint32_t triangles, unsigned seed) {
         for (int k = 0; k < 9; ++k) soup.vertices.push_back(c[k % 3] + offset(random));
     }
     return soup;
+}
+
+Progress::Callback expect_within_ends(double& last) {
+    return [&last](double fraction, const char* stage) {
+        EXPECT_GE(fraction, 0.0);
+        EXPECT_LE(fraction, 1.0);
+        EXPECT_NE(stage, nullptr);
+        last = fraction;
+        return false;
+    };
 }
 
 std::vector<Ray> make_chords(std::size_t count, unsigned seed) {

@@ -16,6 +16,9 @@ struct Soup {
 };
 Soup make_soup(std::uint32_t triangles, unsigned seed = 1);
 
+// A callback that looks at what it is told and keeps the fraction in `last`.
+Progress::Callback expect_within_ends(double& last);
+
 std::vector<Ray> make_chords(std::size_t count, unsigned seed = 1);
 
 // Every structure costs nothing, except what `change` sets.
