@@ -46,7 +46,7 @@ std::int32_t rw_scene_set_expected_rays(rw_scene* scene, const rw_expected_rays*
             const RayArrays rays = read_rays(e.sample, "expected.sample");
             const std::uint64_t count = std::min<std::uint64_t>(rays.count, 1000);
             sample.resize(count);
-            rays.read(0, count, sample.data());
+            rays.read({0, count}, sample.data());
         }
         s.set_expected(workload, std::move(sample));
     });

@@ -20,7 +20,7 @@ public:
     SurfaceHit closest(const UnpreparedRay& ray) const override;
     bool any(const UnpreparedRay& ray) const override;
     void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
-    std::size_t rays_at_a_time() const override { return 4096; } // as many as stay in the caches
+    std::size_t rays_at_a_time() const override { return 2048; } // as many as stay in the caches
     void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const override;
     void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const override;
 

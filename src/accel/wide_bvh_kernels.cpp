@@ -1,5 +1,7 @@
 #include "accel/wide_bvh_kernels.h"
 
+#include "geometry/triangle_tests.h"
+
 #include <algorithm>
 
 // This file is read once for each target, and the kernels compiled for it.
@@ -22,11 +24,12 @@ SurfaceHit closest_prepared(const WideBvhScene& scene, const PreparedRay& ray) {
     if (scene.bvh.nodes.empty()) return best;
     FrameRay frame_ray(ray, scene.bvh.frame);
     if (frame_ray.misses()) return best;
-    Pending pending{};
+    Pending pending;
+    pending.count = 0;
     ClosestSink<FrameRay> sink(scene, ray, frame_ray, frame_ray.margin(), frame_ray.last_of_ray, pending, best,
                                best.corners);
     traverse(scene.bvh, frame_ray, WideReference::node(0), sink);
-    sink.finish();
+    sink.settle();
     return best;
 }
 
@@ -55,10 +58,11 @@ SurfaceHit closest_unprepared(const WideBvhScene& scene, const UnpreparedRay& ra
     PlainRayPlace place;
     const PlainRayStatus status = set_plain_ray(ray.ray, scene.bvh.frame, plain, place);
     if (HWY_LIKELY(status == PlainRayStatus::plain)) {
-        Pending pending{};
+        Pending pending;
+        pending.count = 0;
         ClosestSink<PlainRayPlace> sink(scene, ray, place, plain.margin(), plain.last, pending, best, best.corners);
         traverse(scene.bvh, plain, WideReference::node(0), sink);
-        sink.finish();
+        sink.settle();
     } else if (status == PlainRayStatus::odd) {
         best = closest_odd(scene, ray);
     }
@@ -105,6 +109,42 @@ struct ClosestOfMany {
     }
 };
 
+// What is pending when all has been visited, tested several at once.
+class LastTests {
+public:
+    explicit LastTests(ClosestOfMany& sink) : sink_(sink) {}
+
+    HWY_INLINE void add(std::size_t i, const BlockTriangle& triangle) {
+        const std::size_t k = tests_.size();
+        rays_[k] = i;
+        triangles_[k] = triangle;
+        corners_[k] = ExactTest(sink_.scene, sink_.rays[i]).corners(triangle);
+        tests_.add(sink_.rays.rays[i], corners_[k]);
+        if (tests_.is_full()) finish();
+    }
+
+    HWY_NOINLINE void finish() {
+        tests_.run();
+        for (std::size_t k = 0; k < tests_.size(); ++k) {
+            const std::size_t i = rays_[k];
+            if (tests_.answer(k) == TriangleTests::Answer::unknown) sink_.of_ray(i).settle(triangles_[k]);
+            if (tests_.answer(k) != TriangleTests::Answer::hits) continue;
+            const PrimitiveHit hit{tests_.t(k), tests_.u(k), tests_.v(k), triangles_[k].primitive()};
+            if (!(hit < sink_.hits.hits[i])) continue;
+            sink_.hits.hits[i] = hit;
+            sink_.hits.corners[i] = corners_[k];
+        }
+        tests_.clear();
+    }
+
+private:
+    ClosestOfMany& sink_;
+    TriangleTests tests_;
+    std::size_t rays_[TriangleTests::most];
+    BlockTriangle triangles_[TriangleTests::most];
+    Corners corners_[TriangleTests::most];
+};
+
 struct AnyOfMany {
     static constexpr bool in_order = false;
 
@@ -128,12 +168,17 @@ void closest_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, cons
     std::fill_n(hits.hits, rays.count, PrimitiveHit{});
     StreamRays stream_rays(scene, rays, scratch, [&](std::size_t i) { hits.put(i, closest_odd(scene, rays[i])); });
     auto* const pending = scratch.take<Pending>(rays.count);
-    std::fill_n(pending, rays.count, Pending{});
+    for (std::size_t i = 0; i < rays.count; ++i) pending[i].count = 0;
     ClosestOfMany sink{scene, rays, stream_rays, pending, hits};
     stream_rays.trace(scene.bvh, sink, scratch);
+    LastTests last_tests(sink);
     for (std::size_t i = 0; i < rays.count; ++i) {
-        if (pending[i].is_there) sink.of_ray(i).settle();
+        for (std::uint32_t k = 0; k < pending[i].count; ++k) {
+            const Pending::Candidate& candidate = pending[i].candidates[k];
+            if (!(candidate.lower > stream_rays.plain(i).last)) last_tests.add(i, candidate.triangle);
+        }
     }
+    last_tests.finish();
 }
 
 void any_of_many(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch) {

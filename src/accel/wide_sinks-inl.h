@@ -65,12 +65,27 @@ private:
     LazyRay ray_;
 };
 
-// The triangle of which float32 says that it may be hit first. It is tested exactly when another may be hit about as early, and at the
-// end: once for most rays.
+// Triangles of which float32 says that one of them may be hit first. They are tested exactly when there are more, and at the end: once
+// for most rays, twice for those that start on a surface.
 struct Pending {
-    BlockTriangle triangle;
-    float lower; // it is not hit before this s
-    bool is_there;
+    static constexpr std::uint32_t most = 2;
+
+    struct Candidate {
+        BlockTriangle triangle;
+        float lower; // it is not hit before this s
+    };
+
+    // A certain hit at or before s makes others useless.
+    HWY_INLINE void drop_beyond(float s) {
+        std::uint32_t kept = 0;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            if (!(s < candidates[k].lower)) candidates[kept++] = candidates[k];
+        }
+        count = kept;
+    }
+
+    Candidate candidates[most];
+    std::uint32_t count; // 0 at first
 };
 
 // Limits is FrameRay or PlainRayPlace, and `last` what the ray is culled by.
@@ -79,7 +94,7 @@ class ClosestSink {
 public:
     static constexpr bool in_order = true;
 
-    // margin: as PlainRay's. pending: not there at first; what is there when all is visited has to be settled.
+    // margin: as PlainRay's. What is pending when all has been visited has to be settled.
     template <class AnyRay>
     ClosestSink(const WideBvhScene& scene, const AnyRay& ray, const Limits& limits, float margin, float& last,
                 Pending& pending, PrimitiveHit& best, Corners& corners)
@@ -93,29 +108,38 @@ public:
 
     HWY_INLINE bool test(const BlockTriangle& triangle, bool certain, float lower, float upper) {
         if (HWY_UNLIKELY(test_.skips(triangle))) return false;
-        const float before = certain ? upper + margin_ : std::numeric_limits<float>::infinity();
-        if (pending_.is_there && !(before < pending_.lower)) settle();
         if (lower > last_) return false;
-        pending_ = {triangle, lower, true};
-        last_ = before < last_ ? before : last_;
+        if (certain) {
+            const float before = upper + margin_;
+            pending_.drop_beyond(before);
+            last_ = before < last_ ? before : last_;
+        }
+        if (pending_.count == Pending::most) {
+            settle();
+            if (lower > last_) return false;
+        }
+        pending_.candidates[pending_.count++] = {triangle, lower};
         return false;
     }
     float last() const { return last_; }
 
     HWY_NOINLINE void settle() {
-        pending_.is_there = false;
-        const Corners corners = test_.corners(pending_.triangle);
+        for (std::uint32_t k = 0; k < pending_.count; ++k) {
+            if (!(pending_.candidates[k].lower > last_)) settle(pending_.candidates[k].triangle);
+        }
+        pending_.count = 0;
+    }
+
+    void settle(const BlockTriangle& triangle) {
+        const Corners corners = test_.corners(triangle);
         PrimitiveHit hit;
-        if (!test_(pending_.triangle, corners, hit) || !(hit < best_)) return;
+        if (!test_(triangle, corners, hit) || !(hit < best_)) return;
         best_.t = hit.t; // member by member: a copy of what was just written would take long
         best_.u = hit.u;
         best_.v = hit.v;
         best_.primitive = hit.primitive;
         corners_ = corners;
         last_ = std::min(last_, limits_.last(hit.t));
-    }
-    void finish() {
-        if (pending_.is_there) settle();
     }
 
 private:

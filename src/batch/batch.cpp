@@ -1,7 +1,7 @@
 #include "batch/batch.h"
 
 #include "base/scratch.h"
-#include "batch/ray_order.h"
+#include "batch/ray_window.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,65 +14,93 @@ namespace {
 // Fewer rays than this are answered on the caller's thread: waking another costs more.
 constexpr std::uint64_t fewest_rays = 256;
 
+// Fewer rays than this are not put in order: it would bring less than it costs, and much less where a structure takes many at a time.
+constexpr std::uint64_t fewest_in_order = 256;
+constexpr std::uint64_t fewest_in_order_of_many = 16384;
+
 // Several blocks for each thread balance uneven work.
 constexpr std::uint64_t blocks_per_thread = 8;
 
-// Rays put in order together, where the structure takes one at a time: many more, and each part of the scene would be come to once;
-// many fewer, and their keys stay in the caches.
-constexpr std::uint64_t rays_per_order = 8192;
+// Rays in a block, where the structure takes one at a time.
+constexpr std::uint64_t single_rays_per_block = 8192;
 
-// Rays read from the caller's arrays.
+// What is answered at a time: rays read from the caller's arrays.
 struct RayBlock {
-    std::uint64_t first = 0; // the number of its first ray in the batch
-    std::size_t size = 0;
+    Elements elements{0, 0};
     Ray* rays = nullptr;
     SkipBlock skips;
     Scratch scratch; // for whatever the block takes
+
+    std::size_t size() const { return elements.count(); }
 };
 
 bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() > 1; }
 
-// Calls body(block) for all rays, on several threads. Returns how many of the rays held a NaN, and notes the time. Each thread takes the
-// next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to the next.
-template <class Body>
-std::uint64_t for_blocks(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const Body& body) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    const std::uint64_t most = takes_many(tracer) ? tracer.accel().rays_at_a_time() : rays_per_order;
-    const std::uint64_t even = (rays.count + parallel.threads() - 1) / parallel.threads();
-    const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
-    const std::uint64_t blocks = (rays.count + size - 1) / size;
-    std::atomic<std::uint64_t> next{0};
-    std::atomic<std::uint64_t> invalid{0};
-    parallel.for_each(std::min<std::uint64_t>(parallel.threads(), blocks), [&](std::uint64_t) {
-        RayBlock block;
-        for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
-            block.scratch.reset();
-            block.first = i * size;
-            block.size = std::min(size, rays.count - block.first);
-            block.rays = block.scratch.take<Ray>(block.size);
-            invalid.fetch_add(rays.read(block.first, block.size, block.rays), std::memory_order_relaxed);
-            block.skips.read(rays.skip, block.first, block.size, tracer.primitives());
-            body(block);
-        }
-    });
-    const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-    tracer.usage().rays.fetch_add(rays.count, std::memory_order_relaxed);
-    tracer.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns), std::memory_order_relaxed);
-    return invalid.load();
-}
+// A batch, a window of it after the other, cut into blocks.
+class BlockLoop {
+public:
+    BlockLoop(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel)
+        : tracer_(tracer),
+          rays_(rays),
+          parallel_(parallel),
+          window_(rays, tracer.primitives().bounds(), parallel),
+          blocks_(parallel.threads()) {}
 
-// answer(k, ray, skip) for each ray: near ones one after the other.
-template <class Answer>
-void for_each_in_order(const Tracer& tracer, const RayBlock& block, const Answer& answer) {
-    RayOrder order(tracer.primitives().bounds());
-    const std::vector<std::uint32_t>& sorted = order.sort(block.rays, block.size);
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        __builtin_prefetch(&block.rays[sorted[std::min(i + 4, sorted.size() - 1)]]);
-        const std::uint32_t k = sorted[i];
-        answer(k, block.rays[k], block.skips[k]);
+    // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, and
+    // notes the time.
+    template <class Body, class AtEnd>
+    std::uint64_t run(const Body& body, const AtEnd& at_end) {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
+        for (std::uint64_t first = 0; first < rays_.count; first += RayWindow::most) {
+            const std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, RayWindow::most);
+            window_.move_to(first, count, count >= (takes_many(tracer_) ? fewest_in_order_of_many : fewest_in_order));
+            run_window(body);
+            at_end();
+        }
+        const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+        tracer_.usage().rays.fetch_add(rays_.count, std::memory_order_relaxed);
+        tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns), std::memory_order_relaxed);
+        return window_.invalid();
     }
-}
+    template <class Body>
+    std::uint64_t run(const Body& body) {
+        return run(body, [] {});
+    }
+
+    RayWindow& window() { return window_; }
+
+private:
+    // Each thread takes the next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to
+    // the next.
+    template <class Body>
+    void run_window(const Body& body) {
+        const Elements& elements = window_.elements();
+        const std::uint64_t count = elements.count();
+        const std::uint64_t most = takes_many(tracer_) ? tracer_.accel().rays_at_a_time() : single_rays_per_block;
+        const std::uint64_t even = (count + parallel_.threads() - 1) / parallel_.threads();
+        const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
+        const std::uint64_t blocks = (count + size - 1) / size;
+        std::atomic<std::uint64_t> next{0};
+        parallel_.for_each(std::min<std::uint64_t>(blocks_.size(), blocks), [&](std::uint64_t thread) {
+            RayBlock& block = blocks_[thread];
+            for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
+                block.scratch.reset();
+                block.elements = elements.part(i * size, std::min(size, count - i * size));
+                block.rays = block.scratch.take<Ray>(block.size());
+                window_.read(block.elements, block.rays);
+                block.skips.read(rays_.skip, block.elements, tracer_.primitives());
+                body(block);
+            }
+        });
+    }
+
+    const Tracer& tracer_;
+    const RayArrays& rays_;
+    const Parallel& parallel_;
+    RayWindow window_;
+    std::vector<RayBlock> blocks_; // of each thread
+};
 
 // A structure that takes many rays at a time does not look for those with a NaN.
 std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
@@ -80,16 +108,18 @@ std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
     return invalid;
 }
 
-void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& found, const HitArrays& hits) {
+// Hits to `window`, which writes them to `hits`.
+void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& found, RayWindow& window,
+                const HitArrays& hits) {
     constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
     Hit as_asked[together];
-    for (std::size_t begin = 0; begin < block.size; begin += together) {
-        const std::size_t n = std::min(together, block.size - begin);
+    for (std::size_t begin = 0; begin < block.size(); begin += together) {
+        const std::size_t n = std::min(together, block.size() - begin);
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = begin + k;
             as_asked[k] = tracer.to_caller(block.rays[i], found.hits[i], found.corners[i]);
         }
-        hits.write(block.first + begin, n, as_asked);
+        window.write(block.elements.part(begin, n), as_asked, hits);
     }
 }
 
@@ -97,36 +127,34 @@ void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& 
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel) {
-    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
+    BlockLoop loop(tracer, rays, parallel);
+    const auto answer = [&](RayBlock& block) {
         if (takes_many(tracer)) {
-            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size),
-                                    block.scratch.take<Corners>(block.size)};
-            tracer.accel().closest_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()},
+            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size()),
+                                    block.scratch.take<Corners>(block.size())};
+            tracer.accel().closest_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()},
                                         found, block.scratch);
-            write_hits(tracer, block, found, hits);
+            write_hits(tracer, block, found, loop.window(), hits);
         } else {
-            Hit* const found = block.scratch.take<Hit>(block.size);
-            for_each_in_order(tracer, block, [&](std::size_t k, const Ray& ray, SkipList skip) {
-                found[k] = tracer.closest(ray, skip);
-            });
-            hits.write(block.first, block.size, found);
+            Hit* const found = block.scratch.take<Hit>(block.size());
+            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.closest(block.rays[k], block.skips[k]);
+            loop.window().write(block.elements, found, hits);
         }
-    });
-    return count_invalid(tracer, invalid);
+    };
+    return count_invalid(tracer, loop.run(answer, [&] { loop.window().finish(hits); }));
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel) {
-    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
-        bool* const found = block.scratch.take<bool>(block.size);
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel).run([&](RayBlock& block) {
+        bool* const found = block.scratch.take<bool>(block.size());
         if (takes_many(tracer)) {
-            tracer.accel().any_many({block.rays, block.skips.data(), block.size, tracer.primitives().bounds()}, found,
+            tracer.accel().any_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()}, found,
                                     block.scratch);
         } else {
-            for_each_in_order(tracer, block,
-                              [&](std::size_t k, const Ray& ray, SkipList skip) { found[k] = tracer.any(ray, skip); });
+            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips[k]);
         }
-        occluded.write(block.first, block.size, found);
+        occluded.write(block.elements, found);
     });
     return count_invalid(tracer, invalid);
 }
@@ -135,16 +163,15 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
                                   const Parallel& parallel) {
     std::vector<std::vector<Hit>> found(rays.count);
-    const std::uint64_t invalid = for_blocks(tracer, rays, parallel, [&](RayBlock& block) {
-        for_each_in_order(tracer, block, [&](std::size_t k, const Ray& ray, SkipList skip) {
-            tracer.all(ray, found[block.first + k], skip);
-        });
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel).run([&](RayBlock& block) {
+        for (std::size_t k = 0; k < block.size(); ++k)
+            tracer.all(block.rays[k], found[block.elements[k]], block.skips[k]);
     });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
         parallel.for_blocks(rays.count, fewest_rays, [&](std::uint64_t begin, std::uint64_t end) {
-            for (std::uint64_t i = begin; i < end; ++i) hits.write(first[i], found[i].size(), found[i].data());
+            for (std::uint64_t i = begin; i < end; ++i) hits.write({first[i], found[i].size()}, found[i].data());
         });
     }
     // Last, so that an error before leaves the caller's offsets alone.

@@ -1,6 +1,7 @@
 // The answers of a batch, in the caller's arrays.
 #pragma once
 
+#include "batch/elements.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/tracer.h"
 
@@ -18,7 +19,7 @@ struct OutputArray {
 
     bool wanted() const { return data != nullptr; }
     // As uint8, uint32 or uint64: 1 for true, 0 for false.
-    void write(std::uint64_t first, std::size_t n, const bool* flags) const;
+    void write(const Elements& elements, const bool* flags) const;
 };
 
 struct HitArrays {
@@ -29,8 +30,7 @@ struct HitArrays {
     OutputArray geometry;
     OutputArray primitive;
 
-    // Elements first ... first + n - 1.
-    void write(std::uint64_t first, std::size_t n, const Hit* hits) const;
+    void write(const Elements& elements, const Hit* hits) const;
 };
 
 } // namespace raywise

@@ -24,26 +24,26 @@ void for_kind(Scalar scalar, const Body& body) {
     }
 }
 
-void read_vectors(const StridedArray& array, std::uint64_t first, std::size_t n, Vec3 Ray::*member, Ray* rays) {
+void read_vectors(const StridedArray& array, const Elements& elements, Vec3 Ray::*member, Ray* rays) {
     for_kind(array.scalar, [&](auto number) {
         using Number = decltype(number);
-        const std::byte* address = array.data + static_cast<std::ptrdiff_t>(first) * array.stride;
         const std::ptrdiff_t step = array.component_stride;
-        for (std::size_t k = 0; k < n; ++k, address += array.stride)
+        for (std::size_t k = 0; k < elements.count(); ++k) {
+            const std::byte* const address = array.data + static_cast<std::ptrdiff_t>(elements[k]) * array.stride;
             rays[k].*member = {load<Number>(address), load<Number>(address + step), load<Number>(address + 2 * step)};
+        }
     });
 }
 
-void read_numbers(const StridedArray& array, std::uint64_t first, std::size_t n, double absent, double Ray::*member,
-                  Ray* rays) {
+void read_numbers(const StridedArray& array, const Elements& elements, double absent, double Ray::*member, Ray* rays) {
     if (array.data == nullptr) {
-        for (std::size_t k = 0; k < n; ++k) rays[k].*member = absent;
+        for (std::size_t k = 0; k < elements.count(); ++k) rays[k].*member = absent;
         return;
     }
     for_kind(array.scalar, [&](auto number) {
         using Number = decltype(number);
-        const std::byte* address = array.data + static_cast<std::ptrdiff_t>(first) * array.stride;
-        for (std::size_t k = 0; k < n; ++k, address += array.stride) rays[k].*member = load<Number>(address);
+        for (std::size_t k = 0; k < elements.count(); ++k)
+            rays[k].*member = load<Number>(array.data + static_cast<std::ptrdiff_t>(elements[k]) * array.stride);
     });
 }
 
@@ -55,13 +55,13 @@ bool may_have_nan(const Ray& ray) {
 
 } // namespace
 
-std::uint64_t RayArrays::read(std::uint64_t first, std::size_t n, Ray* rays) const {
-    read_vectors(origin, first, n, &Ray::origin, rays);
-    read_vectors(direction, first, n, &Ray::direction, rays);
-    read_numbers(tmin, first, n, 0.0, &Ray::tmin, rays);
-    read_numbers(tmax, first, n, std::numeric_limits<double>::infinity(), &Ray::tmax, rays);
+std::uint64_t RayArrays::read(const Elements& elements, Ray* rays) const {
+    read_vectors(origin, elements, &Ray::origin, rays);
+    read_vectors(direction, elements, &Ray::direction, rays);
+    read_numbers(tmin, elements, 0.0, &Ray::tmin, rays);
+    read_numbers(tmax, elements, std::numeric_limits<double>::infinity(), &Ray::tmax, rays);
     std::uint64_t invalid = 0;
-    for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t k = 0; k < elements.count(); ++k) {
         if (may_have_nan(rays[k])) invalid += rays[k].has_nan() ? 1 : 0;
     }
     return invalid;

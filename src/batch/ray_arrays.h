@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/ray.h"
+#include "batch/elements.h"
 #include "batch/skip_arrays.h"
 #include "geometry/triangle_mesh.h"
 
@@ -18,8 +19,8 @@ struct RayArrays {
     StridedArray tmax; // data null: infinity
     SkipArrays skip;
 
-    // Rays first ... first + n - 1 to `rays`. Returns how many of them hold a NaN.
-    std::uint64_t read(std::uint64_t first, std::size_t n, Ray* rays) const;
+    // Returns how many of the rays hold a NaN.
+    std::uint64_t read(const Elements& elements, Ray* rays) const;
 };
 
 } // namespace raywise

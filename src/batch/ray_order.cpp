@@ -1,90 +1,55 @@
 #include "batch/ray_order.h"
 
-#include <array>
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 namespace raywise {
-namespace {
 
-// Spreads the lowest bits so that two zeros follow each.
-std::uint32_t spread(std::uint32_t bits) {
-    bits = (bits | bits << 8) & 0x0300F00Fu;
-    bits = (bits | bits << 4) & 0x030C30C3u;
-    return (bits | bits << 2) & 0x09249249u;
+std::uint32_t* RayOrder::keys(std::size_t count) {
+    count_ = count;
+    if (keys_.size() < count) {
+        keys_ = PageArray<std::uint32_t>(count);
+        numbers_ = PageArray<std::uint32_t>(count);
+        entries_ = PageArray<Entry>(count);
+    }
+    return keys_.data();
 }
 
-// x in [0, cells) to its cell; anything else, a NaN too, to the first or the last.
-std::uint32_t cell_of(double x, std::uint32_t cells) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(larger(smaller(x, cells - 1.0), 0.0)));
-}
-
-} // namespace
-
-RayOrder::RayOrder(const Box& bounds) : bounds_(bounds), cells_per_unit_(0.0) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const double size = bounds.upper[axis] - bounds.lower[axis];
-        const double cells = static_cast<double>(1u << cell_bits) / size;
-        if (size > 0.0 && std::isfinite(cells)) cells_per_unit_[axis] = cells;
+void RayOrder::divide() {
+    constexpr std::size_t smallest = 16384; // fewer rays are not worth a thread
+    parts_.resize(std::clamp<std::size_t>(count_ / smallest, 1, parallel_.threads()));
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        parts_[i].begin = count_ * i / parts_.size();
+        parts_[i].end = count_ * (i + 1) / parts_.size();
     }
 }
 
-// Whatever it returns, answers are the same: it need not be exact, and no input may be harmful.
-std::uint32_t RayOrder::key_of(const Ray& ray) const {
-    double near = larger(ray.tmin, 0.0);
-    std::uint32_t octant = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double direction = at(ray.direction, axis);
-        const bool backwards = std::signbit(direction);
-        const double plane = at(backwards ? bounds_.upper : bounds_.lower, axis);
-        const double distance = (plane - at(ray.origin, axis)) / direction;
-        near = larger(smaller(distance, 0x1p1000), near);
-        octant |= static_cast<std::uint32_t>(backwards) << axis;
-    }
-    std::uint32_t cell = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double entry = at(ray.origin, axis) + near * at(ray.direction, axis);
-        cell |= spread(cell_of((entry - at(bounds_.lower, axis)) * at(cells_per_unit_, axis), 1u << cell_bits)) << axis;
-    }
-    constexpr std::uint32_t steps = 1u << direction_bits;
-    const Vec3 magnitude = magnitudes(ray.direction);
-    const double scale = steps / max_component(magnitude);
-    const std::uint32_t direction =
-        cell_of(magnitude.x * scale, steps) << direction_bits | cell_of(magnitude.y * scale, steps);
-    return (octant << 3 * cell_bits | cell) << 2 * direction_bits | direction;
-}
-
-// Whether most rays are in the cell and octant of the one before.
-bool RayOrder::is_in_order_already() const {
-    std::size_t changes = 0;
-    for (std::size_t i = 1; i < entries_.size(); ++i)
-        changes += (entries_[i].key ^ entries_[i - 1].key) >> 2 * direction_bits != 0 ? 1 : 0;
-    return changes < entries_.size() / 4;
-}
-
-void RayOrder::sort_by_digit(int shift, const std::vector<Entry>& from, std::vector<Entry>& to) {
-    constexpr std::uint32_t digits = 1u << digit_bits;
-    std::array<std::uint32_t, digits> next{};
-    for (const Entry& entry : from) ++next[entry.key >> shift & (digits - 1)];
+template <class DigitOf, class Place>
+void RayOrder::sort_by(const DigitOf& digit_of, const Place& place) {
+    parallel_.for_each(parts_.size(), [&](std::uint64_t p) {
+        Part& part = parts_[p];
+        part.next.fill(0);
+        for (std::size_t i = part.begin; i < part.end; ++i) ++part.next[digit_of(i)];
+    });
     std::uint32_t sum = 0;
-    for (std::uint32_t& first : next) {
-        const std::uint32_t count = first;
-        first = sum;
-        sum += count;
+    for (std::uint32_t digit = 0; digit < digits; ++digit) {
+        for (Part& part : parts_) sum += std::exchange(part.next[digit], sum);
     }
-    for (const Entry& entry : from) to[next[entry.key >> shift & (digits - 1)]++] = entry;
+    parallel_.for_each(parts_.size(), [&](std::uint64_t p) {
+        Part& part = parts_[p];
+        for (std::size_t i = part.begin; i < part.end; ++i) place(i, part.next[digit_of(i)]++);
+    });
 }
 
-const std::vector<std::uint32_t>& RayOrder::sort(const Ray* rays, std::size_t count) {
-    entries_.resize(count);
-    scratch_.resize(count);
-    order_.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) entries_[i] = {key_of(rays[i]), i};
-    if (!is_in_order_already()) {
-        sort_by_digit(0, entries_, scratch_);
-        sort_by_digit(digit_bits, scratch_, entries_);
-    }
-    for (std::size_t i = 0; i < count; ++i) order_[i] = entries_[i].ray;
-    return order_;
+const std::uint32_t* RayOrder::sort() {
+    divide();
+    sort_by([this](std::size_t i) { return keys_[i] & (digits - 1); },
+            [this](std::size_t i, std::size_t where) {
+                entries_[where] = {keys_[i], static_cast<std::uint32_t>(i)};
+            });
+    sort_by([this](std::size_t i) { return entries_[i].key >> digit_bits; },
+            [this](std::size_t i, std::size_t where) { numbers_[where] = entries_[i].ray; });
+    return numbers_.data();
 }
 
 } // namespace raywise

@@ -1,10 +1,11 @@
-// The order in which many rays are best traced: those that run through the same part of the scene in the same direction one after the
-// other, so that each finds in the caches, and in the processor's branch predictions, what the one before left there.
+// Rays put in the order of their keys, on several threads: a radix sort by the lower and then by the upper half of the key.
 #pragma once
 
-#include "base/box.h"
-#include "base/ray.h"
+#include "base/page_array.h"
+#include "base/parallel.h"
+#include "batch/ray_key.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,36 +14,41 @@ namespace raywise {
 
 class RayOrder {
 public:
-    // bounds: of the scene.
-    explicit RayOrder(const Box& bounds);
+    explicit RayOrder(const Parallel& parallel) : parallel_(parallel) {}
 
-    // Puts the numbers 0 ... count - 1 in that order, in memory that lasts until the next call. Rays that come in such an order
-    // already, as those of a camera do, stay in it.
-    const std::vector<std::uint32_t>& sort(const Ray* rays, std::size_t count);
+    // Makes room for the keys of `count` rays, to be filled before sort().
+    std::uint32_t* keys(std::size_t count);
+    // The numbers of those rays in the order of their keys; they last until the next call of keys(). It is the same order on any number
+    // of threads.
+    const std::uint32_t* sort();
 
 private:
-    // From the least significant bits: where the ray points within its octant, the cell in which it enters the scene (interleaved, so
-    // that near cells have near keys), and the octant.
-    static constexpr int direction_bits = 2; // on each of two axes
-    static constexpr int cell_bits = 5;      // on each of three
-    static constexpr int key_bits = 2 * direction_bits + 3 * cell_bits + 3;
-    static constexpr int digit_bits = key_bits / 2; // two passes of counting
-    static_assert(key_bits == 2 * digit_bits);
+    static constexpr int digit_bits = RayKeys::bits / 2;
+    static_assert(RayKeys::bits == 2 * digit_bits);
+    static constexpr std::uint32_t digits = 1u << digit_bits;
 
     struct Entry {
         std::uint32_t key;
         std::uint32_t ray;
     };
+    // Rays of one thread.
+    struct Part {
+        std::size_t begin;
+        std::size_t end;
+        std::array<std::uint32_t, digits> next; // how many there are of each digit, then where the next of them goes
+    };
 
-    std::uint32_t key_of(const Ray& ray) const;
-    bool is_in_order_already() const;
-    void sort_by_digit(int shift, const std::vector<Entry>& from, std::vector<Entry>& to);
+    void divide();
+    // Puts each i below the count at its place by digit_of(i): place(i, where).
+    template <class DigitOf, class Place>
+    void sort_by(const DigitOf& digit_of, const Place& place);
 
-    Box bounds_;
-    Vec3 cells_per_unit_;
-    std::vector<Entry> entries_;
-    std::vector<Entry> scratch_;
-    std::vector<std::uint32_t> order_;
+    const Parallel& parallel_;
+    std::size_t count_ = 0;
+    std::vector<Part> parts_;
+    PageArray<std::uint32_t> keys_;
+    PageArray<std::uint32_t> numbers_;
+    PageArray<Entry> entries_; // in the order of the lower digit
 };
 
 } // namespace raywise

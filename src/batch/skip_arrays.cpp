@@ -44,14 +44,14 @@ void SkipArrays::check(std::uint64_t rays, const Primitives& primitives) const {
     }
 }
 
-void SkipBlock::read(const SkipArrays& arrays, std::uint64_t first, std::size_t count, const Primitives& primitives) {
+void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives) {
     numbers_.clear();
     lists_.clear();
     if (!arrays.wanted()) return;
     std::vector<std::size_t> ends;
-    ends.reserve(count);
-    for (std::uint64_t i = first; i < first + count; ++i) {
-        const SkipArrays::Range entries = arrays.range(i);
+    ends.reserve(rays.count());
+    for (std::size_t i = 0; i < rays.count(); ++i) {
+        const SkipArrays::Range entries = arrays.range(rays[i]);
         const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
         for (std::uint64_t k = entries.begin; k < entries.end; ++k) {
             const SkipEntry e = arrays.entry(k);
@@ -60,7 +60,7 @@ void SkipBlock::read(const SkipArrays& arrays, std::uint64_t first, std::size_t 
         std::sort(numbers_.begin() + begin, numbers_.end());
         ends.push_back(numbers_.size());
     }
-    lists_.reserve(count);
+    lists_.reserve(rays.count());
     const std::uint32_t* begin = numbers_.data();
     for (const std::size_t end : ends) {
         lists_.push_back({begin, numbers_.data() + end});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/skip_list.h"
+#include "batch/elements.h"
 #include "geometry/primitives.h"
 #include "geometry/triangle_mesh.h"
 
@@ -45,8 +46,8 @@ private:
 // What each of some rays skips, as numbers of primitives.
 class SkipBlock {
 public:
-    // Rays first ... first + count - 1, of arrays that were checked.
-    void read(const SkipArrays& arrays, std::uint64_t first, std::size_t count, const Primitives& primitives);
+    // arrays: that were checked.
+    void read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives);
 
     const SkipList* data() const { return lists_.empty() ? nullptr : lists_.data(); } // null: none skips anything
     SkipList operator[](std::size_t ray) const { return lists_.empty() ? SkipList{} : lists_[ray]; }

@@ -1,5 +1,7 @@
 #include "batch/batch.h"
 
+#include "batch/ray_window.h"
+#include "rays.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>
@@ -28,14 +30,6 @@ HitArrays outputs(std::vector<Record>& records) {
             field(&Record::geometry, Scalar::uint32), field(&Record::primitive, Scalar::uint32)};
 }
 
-RayArrays inputs(const std::vector<Ray>& rays) {
-    const auto field = [&](auto Ray::*member) {
-        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8,
-                            Scalar::float64};
-    };
-    return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax), {}};
-}
-
 std::shared_ptr<Scene> scene() {
     static const auto shared = make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()));
     return shared;
@@ -48,19 +42,63 @@ std::vector<Ray> rays_with_faults(std::size_t count) {
     return rays;
 }
 
+bool is_hit_of(const Record& r, const Hit& hit) {
+    return same_bits(
+        hit, {r.t, r.uv[0], r.uv[1], {r.normal[0], r.normal[1], r.normal[2]}, r.instance, r.geometry, r.primitive});
+}
+
+// Of few rays as they come, and of so many that they are put in order.
 TEST(Batch, GivesTheBitsOfSingleRaysOnAnyNumberOfThreads) {
-    const std::vector<Ray> rays = rays_with_faults(3000);
-    for (const unsigned threads : {1u, 2u, 5u}) {
-        std::vector<Record> records(rays.size());
-        EXPECT_EQ(intersect_batch(scene()->tracer(), inputs(rays), outputs(records), Parallel(threads)), 300u);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Hit hit = scene()->tracer().closest(rays[i]);
-            const Record& r = records[i];
-            const Hit got{r.t,        r.uv[0],    r.uv[1],    {r.normal[0], r.normal[1], r.normal[2]},
-                          r.instance, r.geometry, r.primitive};
-            ASSERT_TRUE(same_bits(hit, got)) << i;
+    for (const std::size_t count : {20u, 3000u, 20000u}) {
+        const std::vector<Ray> rays = rays_with_faults(count);
+        for (const unsigned threads : {1u, 2u, 5u}) {
+            std::vector<Record> records(rays.size());
+            EXPECT_EQ(intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), Parallel(threads)),
+                      count / 10);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i]))) << i;
         }
     }
+}
+
+TEST(Batch, TellsOfAnyHitAsSingleRaysDo) {
+    for (const std::size_t count : {20u, 3000u, 20000u}) {
+        const std::vector<Ray> rays = rays_with_faults(count);
+        std::vector<std::uint8_t> occluded(rays.size(), 9);
+        occluded_batch(scene()->tracer(), arrays_of(rays),
+                       {reinterpret_cast<std::byte*>(occluded.data()), 1, 1, Scalar::uint8}, Parallel(2));
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            ASSERT_EQ(occluded[i], scene()->tracer().any(rays[i]) ? 1 : 0) << i;
+    }
+}
+
+// Each ray skips what it would hit.
+TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
+    const std::vector<Ray> rays = make_chords(20000);
+    std::vector<std::uint32_t> skipped;
+    for (const Ray& ray : rays) skipped.push_back(scene()->tracer().closest(ray).primitive);
+    RayArrays arrays = arrays_of(rays);
+    arrays.skip.primitive = {reinterpret_cast<const std::byte*>(skipped.data()), 4, 4, Scalar::uint32};
+    std::vector<Record> records(rays.size());
+    intersect_batch(scene()->tracer(), arrays, outputs(records), Parallel(2));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        std::vector<std::uint32_t> numbers;
+        if (skipped[i] != invalid_id) numbers.push_back(skipped[i]);
+        ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i], sorted(numbers)))) << i;
+    }
+}
+
+TEST(Batch, GoesOnAfterAFullWindow) {
+    std::vector<Ray> rays = make_chords(1000);
+    const std::size_t count = RayWindow::most + 5000;
+    rays.reserve(count);
+    while (rays.size() < count) rays.push_back(rays[rays.size() * 7 % 1000]);
+    std::vector<std::uint32_t> primitive(rays.size(), 7);
+    HitArrays hits;
+    hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
+    intersect_batch(scene()->tracer(), arrays_of(rays), hits, Parallel(2));
+    for (std::size_t i = 0; i < 1000; ++i) ASSERT_EQ(primitive[i], scene()->tracer().closest(rays[i]).primitive);
+    for (std::size_t i = 1000; i < count; ++i) ASSERT_EQ(primitive[i], primitive[i * 7 % 1000]) << i;
 }
 
 TEST(Batch, WritesNothingBeyondItsElements) {
@@ -69,7 +107,7 @@ TEST(Batch, WritesNothingBeyondItsElements) {
     HitArrays out = outputs(records);
     for (OutputArray* field : {&out.t, &out.uv, &out.normal, &out.instance, &out.geometry, &out.primitive})
         field->data += sizeof(Record);
-    intersect_batch(scene()->tracer(), inputs(rays), out, Parallel(2));
+    intersect_batch(scene()->tracer(), arrays_of(rays), out, Parallel(2));
     for (const Record& r : {records.front(), records.back()}) {
         EXPECT_EQ(r.t, -7);
         EXPECT_EQ(r.primitive, 7u);
@@ -84,7 +122,7 @@ TEST(Batch, ConvertsToTheOutputsTypes) {
     HitArrays out;
     out.t = {reinterpret_cast<std::byte*>(t.data()), 4, 4, Scalar::float32};
     out.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 8, 8, Scalar::uint64};
-    intersect_batch(scene()->tracer(), inputs(rays), out, Parallel(1));
+    intersect_batch(scene()->tracer(), arrays_of(rays), out, Parallel(1));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit hit = scene()->tracer().closest(rays[i]);
         EXPECT_EQ(t[i], static_cast<float>(hit.t));
@@ -97,11 +135,12 @@ TEST(Batch, FindsAllHitsInOrder) {
     const std::vector<Ray> rays = rays_with_faults(300);
     std::vector<std::uint64_t> offsets(rays.size() + 1);
     std::uint64_t needed = 0;
-    intersect_all_batch(scene()->tracer(), inputs(rays), offsets.data(), {}, 0, needed, Parallel(2));
+    intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2));
     ASSERT_GT(needed, 0u);
     EXPECT_EQ(offsets.back(), needed);
     std::vector<Record> records(needed);
-    intersect_all_batch(scene()->tracer(), inputs(rays), offsets.data(), outputs(records), needed, needed, Parallel(2));
+    intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), outputs(records), needed, needed,
+                        Parallel(2));
     std::vector<Hit> expected;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         scene()->tracer().all(rays[i], expected);

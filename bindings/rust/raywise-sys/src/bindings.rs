@@ -1893,6 +1893,8 @@ Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_wi
 rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
 the rays, which is not checked.
 options: struct_size set; NULL: the defaults.
+Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
+80 MiB in all, while the call lasts.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
 RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_OUT_OF_MEMORY,
 RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.

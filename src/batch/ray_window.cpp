@@ -1,0 +1,92 @@
+#include "batch/ray_window.h"
+
+#include <algorithm>
+
+namespace raywise {
+namespace {
+
+constexpr std::size_t together = RayKeys::most; // rays or hits, that stay at hand from one loop to the next
+
+// Calls body(begin, n) for runs of [begin, end).
+template <class Body>
+void for_runs(std::size_t begin, std::size_t end, const Body& body) {
+    for (; begin < end; begin += together) body(begin, std::min(together, end - begin));
+}
+
+} // namespace
+
+RayWindow::RayWindow(const RayArrays& rays, const Box& bounds, const Parallel& parallel)
+    : rays_(rays), parallel_(parallel), keys_(bounds), order_(parallel) {}
+
+// Whether most rays are in the cell and octant of the one before: of every sixteenth run.
+bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
+    Ray rays[together];
+    std::uint32_t keys[together];
+    std::size_t looked_at = 0;
+    std::size_t changes = 0;
+    for (std::size_t begin = 0; begin < count; begin += 16 * together) {
+        const std::size_t n = std::min(together, count - begin);
+        rays_.read({first + begin, n}, rays);
+        keys_.of(rays, n, keys);
+        for (std::size_t k = 1; k < n; ++k) changes += RayKeys::is_near(keys[k], keys[k - 1]) ? 0 : 1;
+        looked_at += n;
+    }
+    return changes < looked_at / 4;
+}
+
+void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
+    if (slots_.size() < count) slots_ = PageArray<Slot>(count);
+    std::uint32_t* const all_keys = order_.keys(count);
+    parallel_.for_blocks(count, 16 * together, [&](std::uint64_t block_begin, std::uint64_t block_end) {
+        Ray rays[together];
+        std::uint32_t keys[together];
+        std::uint64_t invalid = 0;
+        for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
+            invalid += rays_.read({first + begin, n}, rays);
+            keys_.of(rays, n, keys);
+            std::copy_n(keys, n, all_keys + begin);
+            for (std::size_t k = 0; k < n; ++k) slots_[begin + k].put(rays[k]);
+        });
+        invalid_.fetch_add(invalid, std::memory_order_relaxed);
+    });
+}
+
+void RayWindow::move_to(std::uint64_t first, std::size_t count, bool in_order) {
+    first_ = first;
+    has_slots_ = in_order && !come_in_order(first, count);
+    if (!has_slots_) {
+        elements_ = {first, count};
+        return;
+    }
+    read_to_slots(first, count);
+    elements_ = {first, order_.sort(), count};
+}
+
+void RayWindow::read(const Elements& part, Ray* rays) {
+    if (!has_slots_) {
+        invalid_.fetch_add(rays_.read(part, rays), std::memory_order_relaxed);
+        return;
+    }
+    for (std::size_t k = 0; k < part.count(); ++k) rays[k] = slots_[slot(part, k)].get<Ray>();
+}
+
+void RayWindow::write(const Elements& part, const Hit* found, const HitArrays& hits) {
+    if (!has_slots_) {
+        hits.write(part, found);
+        return;
+    }
+    for (std::size_t k = 0; k < part.count(); ++k) slots_[slot(part, k)].put(found[k]);
+}
+
+void RayWindow::finish(const HitArrays& hits) const {
+    if (!has_slots_) return;
+    parallel_.for_blocks(elements_.count(), 16 * together, [&](std::uint64_t block_begin, std::uint64_t block_end) {
+        Hit found[together];
+        for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
+            for (std::size_t k = 0; k < n; ++k) found[k] = slots_[begin + k].get<Hit>();
+            hits.write({first_ + begin, n}, found);
+        });
+    });
+}
+
+} // namespace raywise
