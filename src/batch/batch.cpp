@@ -14,9 +14,14 @@ namespace {
 // Fewer rays than this are answered on the caller's thread: waking another costs more.
 constexpr std::uint64_t fewest_rays = 256;
 
-// Fewer rays than this are not put in order: it would bring less than it costs, and much less where a structure takes many at a time.
-constexpr std::uint64_t fewest_in_order = 256;
+// Rays are put in order where there are so many, and where each takes so long as they come, in nanoseconds of one thread: elsewhere
+// that would cost more than it brings (docs/decisions/0014).
+constexpr std::uint64_t fewest_in_order = 4096; // of a structure that takes one at a time
 constexpr std::uint64_t fewest_in_order_of_many = 16384;
+constexpr double shortest_in_order = 200.0;
+
+// That is told by the first of them: a sixteenth, and at most so many.
+constexpr std::uint64_t most_on_trial = 32768;
 
 // Several blocks for each thread balance uneven work.
 constexpr std::uint64_t blocks_per_thread = 8;
@@ -39,10 +44,11 @@ bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() >
 // A batch, a window of it after the other, cut into blocks.
 class BlockLoop {
 public:
-    BlockLoop(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel)
+    BlockLoop(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, RayOrdering ordering)
         : tracer_(tracer),
           rays_(rays),
           parallel_(parallel),
+          ordering_(ordering),
           window_(rays, tracer.primitives().bounds(), parallel),
           blocks_(parallel.threads()) {}
 
@@ -50,17 +56,25 @@ public:
     // notes the time.
     template <class Body, class AtEnd>
     std::uint64_t run(const Body& body, const AtEnd& at_end) {
-        using Clock = std::chrono::steady_clock;
         const Clock::time_point start = Clock::now();
-        for (std::uint64_t first = 0; first < rays_.count; first += RayWindow::most) {
-            const std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, RayWindow::most);
-            window_.move_to(first, count, count >= (takes_many(tracer_) ? fewest_in_order_of_many : fewest_in_order));
+        for (std::uint64_t first = 0; first < rays_.count;) {
+            std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, RayWindow::most);
+            bool in_order = ordering_ == RayOrdering::always;
+            if (ordering_ == RayOrdering::where_it_pays && count >= fewest_to_order()) {
+                const std::uint64_t on_trial = std::min(count / 16, most_on_trial);
+                window_.move_to(first, on_trial, false);
+                run_window(body);
+                in_order = ns_per_ray() >= shortest_in_order;
+                first += on_trial;
+                count -= on_trial;
+            }
+            window_.move_to(first, count, in_order);
             run_window(body);
             at_end();
+            first += count;
         }
-        const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
         tracer_.usage().rays.fetch_add(rays_.count, std::memory_order_relaxed);
-        tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns), std::memory_order_relaxed);
+        tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns_since(start)), std::memory_order_relaxed);
         return window_.invalid();
     }
     template <class Body>
@@ -71,6 +85,23 @@ public:
     RayWindow& window() { return window_; }
 
 private:
+    using Clock = std::chrono::steady_clock;
+    static double ns_since(Clock::time_point start) {
+        return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+    }
+
+    std::uint64_t fewest_to_order() const { return takes_many(tracer_) ? fewest_in_order_of_many : fewest_in_order; }
+
+    template <class Body>
+    void answer(RayBlock& block, const Elements& elements, const Body& body) {
+        block.scratch.reset();
+        block.elements = elements;
+        block.rays = block.scratch.take<Ray>(block.size());
+        window_.read(block.elements, block.rays);
+        block.skips.read(rays_.skip, block.elements, tracer_.primitives());
+        body(block);
+    }
+
     // Each thread takes the next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to
     // the next.
     template <class Body>
@@ -82,24 +113,32 @@ private:
         const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
+        ns_per_ray_.resize(blocks);
         parallel_.for_each(std::min<std::uint64_t>(blocks_.size(), blocks), [&](std::uint64_t thread) {
-            RayBlock& block = blocks_[thread];
             for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
-                block.scratch.reset();
-                block.elements = elements.part(i * size, std::min(size, count - i * size));
-                block.rays = block.scratch.take<Ray>(block.size());
-                window_.read(block.elements, block.rays);
-                block.skips.read(rays_.skip, block.elements, tracer_.primitives());
-                body(block);
+                const std::uint64_t n = std::min(size, count - i * size);
+                const Clock::time_point start = Clock::now();
+                answer(blocks_[thread], elements.part(i * size, n), body);
+                ns_per_ray_[i] = ns_since(start) / static_cast<double>(n);
             }
         });
+    }
+
+    // Of the last window, on one thread: what a quarter of the blocks stays below. The first of them find nothing in the caches, and any
+    // may have been interrupted.
+    double ns_per_ray() {
+        const auto quarter = ns_per_ray_.begin() + static_cast<std::ptrdiff_t>(ns_per_ray_.size() / 4);
+        std::nth_element(ns_per_ray_.begin(), quarter, ns_per_ray_.end());
+        return *quarter;
     }
 
     const Tracer& tracer_;
     const RayArrays& rays_;
     const Parallel& parallel_;
+    const RayOrdering ordering_;
     RayWindow window_;
-    std::vector<RayBlock> blocks_; // of each thread
+    std::vector<RayBlock> blocks_;   // of each thread
+    std::vector<double> ns_per_ray_; // of each block of the last window
 };
 
 // A structure that takes many rays at a time does not look for those with a NaN.
@@ -126,8 +165,8 @@ void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& 
 } // namespace
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
-                              const Parallel& parallel) {
-    BlockLoop loop(tracer, rays, parallel);
+                              const Parallel& parallel, RayOrdering ordering) {
+    BlockLoop loop(tracer, rays, parallel, ordering);
     const auto answer = [&](RayBlock& block) {
         if (takes_many(tracer)) {
             const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size()),
@@ -145,8 +184,8 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
-                             const Parallel& parallel) {
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel).run([&](RayBlock& block) {
+                             const Parallel& parallel, RayOrdering ordering) {
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
         bool* const found = block.scratch.take<bool>(block.size());
         if (takes_many(tracer)) {
             tracer.accel().any_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()}, found,
@@ -161,9 +200,9 @@ std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const 
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
-                                  const Parallel& parallel) {
+                                  const Parallel& parallel, RayOrdering ordering) {
     std::vector<std::vector<Hit>> found(rays.count);
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel).run([&](RayBlock& block) {
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
         for (std::size_t k = 0; k < block.size(); ++k)
             tracer.all(block.rays[k], found[block.elements[k]], block.skips[k]);
     });

@@ -10,15 +10,22 @@
 
 namespace raywise {
 
+// Whether rays are put in order first. Answers are the same.
+enum class RayOrdering {
+    where_it_pays,
+    always, // the others are for tests
+    never
+};
+
 // Each returns how many of the rays held a NaN. The skip lists have to be checked.
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
-                              const Parallel& parallel);
+                              const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
-                             const Parallel& parallel);
+                             const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
 
 // Writes rays.count + 1 offsets, and the hits when they fit the capacity. Returns through `needed` how many there are.
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
-                                  const Parallel& parallel);
+                                  const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
 
 } // namespace raywise

@@ -47,26 +47,31 @@ bool is_hit_of(const Record& r, const Hit& hit) {
         hit, {r.t, r.uv[0], r.uv[1], {r.normal[0], r.normal[1], r.normal[2]}, r.instance, r.geometry, r.primitive});
 }
 
-// Of few rays as they come, and of so many that they are put in order.
+constexpr RayOrdering orderings[] = {RayOrdering::where_it_pays, RayOrdering::always, RayOrdering::never};
+
 TEST(Batch, GivesTheBitsOfSingleRaysOnAnyNumberOfThreads) {
     for (const std::size_t count : {20u, 3000u, 20000u}) {
         const std::vector<Ray> rays = rays_with_faults(count);
-        for (const unsigned threads : {1u, 2u, 5u}) {
-            std::vector<Record> records(rays.size());
-            EXPECT_EQ(intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), Parallel(threads)),
-                      count / 10);
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i]))) << i;
+        std::vector<Hit> expected;
+        for (const Ray& ray : rays) expected.push_back(scene()->tracer().closest(ray));
+        for (const RayOrdering ordering : orderings) {
+            for (const unsigned threads : {1u, 2u, 5u}) {
+                std::vector<Record> records(rays.size());
+                EXPECT_EQ(
+                    intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), Parallel(threads), ordering),
+                    count / 10);
+                for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(is_hit_of(records[i], expected[i])) << i;
+            }
         }
     }
 }
 
 TEST(Batch, TellsOfAnyHitAsSingleRaysDo) {
-    for (const std::size_t count : {20u, 3000u, 20000u}) {
-        const std::vector<Ray> rays = rays_with_faults(count);
+    const std::vector<Ray> rays = rays_with_faults(20000);
+    for (const RayOrdering ordering : orderings) {
         std::vector<std::uint8_t> occluded(rays.size(), 9);
-        occluded_batch(scene()->tracer(), arrays_of(rays),
-                       {reinterpret_cast<std::byte*>(occluded.data()), 1, 1, Scalar::uint8}, Parallel(2));
+        const OutputArray output{reinterpret_cast<std::byte*>(occluded.data()), 1, 1, Scalar::uint8};
+        EXPECT_EQ(occluded_batch(scene()->tracer(), arrays_of(rays), output, Parallel(2), ordering), 2000u);
         for (std::size_t i = 0; i < rays.size(); ++i)
             ASSERT_EQ(occluded[i], scene()->tracer().any(rays[i]) ? 1 : 0) << i;
     }
@@ -79,12 +84,14 @@ TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
     for (const Ray& ray : rays) skipped.push_back(scene()->tracer().closest(ray).primitive);
     RayArrays arrays = arrays_of(rays);
     arrays.skip.primitive = {reinterpret_cast<const std::byte*>(skipped.data()), 4, 4, Scalar::uint32};
-    std::vector<Record> records(rays.size());
-    intersect_batch(scene()->tracer(), arrays, outputs(records), Parallel(2));
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        std::vector<std::uint32_t> numbers;
-        if (skipped[i] != invalid_id) numbers.push_back(skipped[i]);
-        ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i], sorted(numbers)))) << i;
+    for (const RayOrdering ordering : orderings) {
+        std::vector<Record> records(rays.size());
+        intersect_batch(scene()->tracer(), arrays, outputs(records), Parallel(2), ordering);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            std::vector<std::uint32_t> numbers;
+            if (skipped[i] != invalid_id) numbers.push_back(skipped[i]);
+            ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i], sorted(numbers)))) << i;
+        }
     }
 }
 
@@ -93,12 +100,14 @@ TEST(Batch, GoesOnAfterAFullWindow) {
     const std::size_t count = RayWindow::most + 5000;
     rays.reserve(count);
     while (rays.size() < count) rays.push_back(rays[rays.size() * 7 % 1000]);
-    std::vector<std::uint32_t> primitive(rays.size(), 7);
-    HitArrays hits;
-    hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
-    intersect_batch(scene()->tracer(), arrays_of(rays), hits, Parallel(2));
-    for (std::size_t i = 0; i < 1000; ++i) ASSERT_EQ(primitive[i], scene()->tracer().closest(rays[i]).primitive);
-    for (std::size_t i = 1000; i < count; ++i) ASSERT_EQ(primitive[i], primitive[i * 7 % 1000]) << i;
+    for (const RayOrdering ordering : {RayOrdering::where_it_pays, RayOrdering::always}) {
+        std::vector<std::uint32_t> primitive(rays.size(), 7);
+        HitArrays hits;
+        hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
+        intersect_batch(scene()->tracer(), arrays_of(rays), hits, Parallel(2), ordering);
+        for (std::size_t i = 0; i < 1000; ++i) ASSERT_EQ(primitive[i], scene()->tracer().closest(rays[i]).primitive);
+        for (std::size_t i = 1000; i < count; ++i) ASSERT_EQ(primitive[i], primitive[i * 7 % 1000]) << i;
+    }
 }
 
 TEST(Batch, WritesNothingBeyondItsElements) {
@@ -132,24 +141,26 @@ TEST(Batch, ConvertsToTheOutputsTypes) {
 }
 
 TEST(Batch, FindsAllHitsInOrder) {
-    const std::vector<Ray> rays = rays_with_faults(300);
-    std::vector<std::uint64_t> offsets(rays.size() + 1);
-    std::uint64_t needed = 0;
-    intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2));
-    ASSERT_GT(needed, 0u);
-    EXPECT_EQ(offsets.back(), needed);
-    std::vector<Record> records(needed);
-    intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), outputs(records), needed, needed,
-                        Parallel(2));
-    std::vector<Hit> expected;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        scene()->tracer().all(rays[i], expected);
-        ASSERT_EQ(offsets[i + 1] - offsets[i], expected.size());
-        for (std::size_t k = 0; k < expected.size(); ++k) {
-            EXPECT_EQ(records[offsets[i] + k].t, expected[k].t);
-            EXPECT_EQ(records[offsets[i] + k].primitive, expected[k].primitive);
-            if (k > 0) {
-                EXPECT_LE(expected[k - 1].t, expected[k].t);
+    for (const RayOrdering ordering : orderings) {
+        const std::vector<Ray> rays = rays_with_faults(300);
+        std::vector<std::uint64_t> offsets(rays.size() + 1);
+        std::uint64_t needed = 0;
+        intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2), ordering);
+        ASSERT_GT(needed, 0u);
+        EXPECT_EQ(offsets.back(), needed);
+        std::vector<Record> records(needed);
+        intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), outputs(records), needed, needed,
+                            Parallel(2));
+        std::vector<Hit> expected;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            scene()->tracer().all(rays[i], expected);
+            ASSERT_EQ(offsets[i + 1] - offsets[i], expected.size());
+            for (std::size_t k = 0; k < expected.size(); ++k) {
+                EXPECT_EQ(records[offsets[i] + k].t, expected[k].t);
+                EXPECT_EQ(records[offsets[i] + k].primitive, expected[k].primitive);
+                if (k > 0) {
+                    EXPECT_LE(expected[k - 1].t, expected[k].t);
+                }
             }
         }
     }
