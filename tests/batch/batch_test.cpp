@@ -49,18 +49,23 @@ bool is_hit_of(const Record& r, const Hit& hit) {
 
 constexpr RayOrdering orderings[] = {RayOrdering::where_it_pays, RayOrdering::always, RayOrdering::never};
 
-TEST(Batch, GivesTheBitsOfSingleRaysOnAnyNumberOfThreads) {
-    for (const std::size_t count : {20u, 3000u, 20000u}) {
-        const std::vector<Ray> rays = rays_with_faults(count);
-        std::vector<Hit> expected;
-        for (const Ray& ray : rays) expected.push_back(scene()->tracer().closest(ray));
-        for (const RayOrdering ordering : orderings) {
-            for (const unsigned threads : {1u, 2u, 5u}) {
-                std::vector<Record> records(rays.size());
-                EXPECT_EQ(
-                    intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), Parallel(threads), ordering),
-                    count / 10);
-                for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(is_hit_of(records[i], expected[i])) << i;
+TEST(Batch, GivesTheBitsOfSingleRaysByEveryStructureOnAnyNumberOfThreads) {
+    for (const Structure structure : all_structures()) {
+        SCOPED_TRACE(name_of(structure));
+        const auto forced = make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()),
+                                       [&](Scene& s) { s.set_structure(structure); });
+        for (const std::size_t count : {20u, 3000u, 20000u}) {
+            const std::vector<Ray> rays = rays_with_faults(count);
+            std::vector<Hit> expected;
+            for (const Ray& ray : rays) expected.push_back(scene()->tracer().closest(ray));
+            for (const RayOrdering ordering : orderings) {
+                for (const unsigned threads : {1u, 2u, 5u}) {
+                    std::vector<Record> records(rays.size());
+                    EXPECT_EQ(intersect_batch(forced->tracer(), arrays_of(rays), outputs(records), Parallel(threads),
+                                              ordering),
+                              count / 10);
+                    for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(is_hit_of(records[i], expected[i])) << i;
+                }
             }
         }
     }
