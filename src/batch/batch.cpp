@@ -18,7 +18,7 @@ constexpr std::uint64_t fewest_rays = 256;
 // that would cost more than it brings (docs/decisions/0014).
 constexpr std::uint64_t fewest_in_order = 4096; // of a structure that takes one at a time
 constexpr std::uint64_t fewest_in_order_of_many = 16384;
-constexpr double shortest_in_order = 200.0;
+constexpr double shortest_in_order = 170.0;
 
 // That is told by the first of them: a sixteenth, and at most so many.
 constexpr std::uint64_t most_on_trial = 32768;
