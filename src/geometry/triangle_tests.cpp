@@ -77,13 +77,10 @@ void test_triangles(TriangleTests::Lanes& lanes, std::size_t n) {
                                            hn::Gt(hn::Mul(tmax, unit.inverse), callers_tmax));
 
         const auto shear = [&](std::size_t corner) HWY_ATTR {
-            Corner c;
-            c.dx = hn::Sub(load(lanes.corner[corner][0]), load(lanes.origin[0]));
-            c.dy = hn::Sub(load(lanes.corner[corner][1]), load(lanes.origin[1]));
-            c.z = hn::Sub(load(lanes.corner[corner][2]), load(lanes.origin[2]));
-            c.x = hn::Sub(c.dx, hn::Mul(shear_x, c.z));
-            c.y = hn::Sub(c.dy, hn::Mul(shear_y, c.z));
-            return c;
+            const Vector dx = hn::Sub(load(lanes.corner[corner][0]), load(lanes.origin[0]));
+            const Vector dy = hn::Sub(load(lanes.corner[corner][1]), load(lanes.origin[1]));
+            const Vector z = hn::Sub(load(lanes.corner[corner][2]), load(lanes.origin[2]));
+            return Corner{dx, dy, z, hn::Sub(dx, hn::Mul(shear_x, z)), hn::Sub(dy, hn::Mul(shear_y, z))};
         };
         const Corner a = shear(0);
         const Corner b = shear(1);
