@@ -137,6 +137,24 @@ public:
         for (const PrimitiveHit& hit : hits_) add(prepared, hit, digest);
         hit_count_ += hits_.size();
     }
+    // The same rays together, as they are in batches.
+    void ask_many(const std::vector<InputRay>& inputs, Digest& digest) {
+        std::vector<Ray> rays;
+        for (const InputRay& ray : inputs)
+            rays.push_back({vector_of(ray.origin), ray.tmin, vector_of(ray.direction), ray.tmax});
+        std::vector<PrimitiveHit> hits(rays.size());
+        std::vector<Corners> corners(rays.size());
+        const auto found = std::make_unique<bool[]>(rays.size());
+        const UnpreparedRays all{rays.data(), nullptr, rays.size(), primitives_.bounds()};
+        Scratch scratch;
+        accel_->closest_many(all, {hits.data(), corners.data()}, scratch);
+        accel_->any_many(all, found.get(), scratch);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (hits[i].is_hit()) add(PreparedRay(rays[i], primitives_.bounds()), hits[i], digest);
+            digest.add(found[i] ? 1u : 0u);
+            hit_count_ += hits[i].is_hit() ? 1 : 0;
+        }
+    }
     std::size_t hit_count() const { return hit_count_; }
 
 private:
@@ -183,6 +201,10 @@ void ask_all(const InputScene& scene, const Primitives& primitives, Structure st
         lines.add(line_of(what + " | ray " + std::to_string(i), asked.hit_count() - before, of_ray));
     }
     if (!each_ray) lines.add(line_of(what, asked.hit_count(), digest));
+    Digest of_many;
+    const std::size_t before = asked.hit_count();
+    asked.ask_many(scene.rays, of_many);
+    lines.add(line_of(what + " | many", asked.hit_count() - before, of_many));
 }
 
 bool is_projected(Structure structure) {
