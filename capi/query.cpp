@@ -30,14 +30,14 @@ void intersect_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_option
     const Ray& r = read_ray(ray);
     rw_hit& out = required(hit, "hit");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
-    write_hit(tracer.closest(r, sorted(skips)), out);
+    write_hit(tracer.closest(r, {sorted(skips)}), out);
 }
 
 void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer) {
     const Ray& r = read_ray(ray);
     std::int32_t& out = required(answer, "occluded");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
-    out = tracer.any(r, sorted(skips)) ? 1 : 0;
+    out = tracer.any(r, {sorted(skips)}) ? 1 : 0;
 }
 
 void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hits,
@@ -47,7 +47,7 @@ void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_op
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     std::vector<Hit> found;
-    tracer.all(r, found, sorted(skips));
+    tracer.all(r, found, {sorted(skips)});
     count = found.size();
     for (std::size_t i = 0; i < std::min<std::uint64_t>(capacity, found.size()); ++i) write_hit(found[i], hits[i]);
     if (hits != nullptr && found.size() > capacity) throw over_capacity(found.size(), capacity);

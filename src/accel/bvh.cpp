@@ -1,6 +1,5 @@
 #include "accel/bvh.h"
 
-#include "accel/visitors.h"
 #include "accel/wide_bvh_kernels.h"
 #include "accel/wide_bvh_refit.h"
 
@@ -17,8 +16,8 @@ constexpr double binary_part(BvhQuality quality) { return quality == BvhQuality:
 // A block of triangles takes one comparison of eight at a time, as a node does of its boxes, and about as long.
 BvhBuildOptions options(BvhQuality quality) {
     BvhBuildOptions result;
-    result.max_leaf_size = block_size;
-    result.block_size = block_size;
+    result.max_leaf_size = triangle_block_size;
+    result.block_size = triangle_block_size;
     result.costs = BuildCosts{1.0, 1.0};
     result.quality = quality;
     return result;
@@ -30,27 +29,34 @@ Bvh::Bvh(const BuildInput& input, BvhQuality quality)
     : primitives_(input.primitives),
       tree_(widen(build_bvh(input, binary_part(quality), options(quality)), input, binary_part(quality))) {}
 
-SurfaceHit Bvh::closest(const PreparedRay& ray) const { return closest_hit({tree_, primitives_}, ray); }
-bool Bvh::any(const PreparedRay& ray) const { return any_hit({tree_, primitives_}, ray); }
-
-SurfaceHit Bvh::closest(const UnpreparedRay& ray) const { return closest_hit({tree_, primitives_}, ray); }
-bool Bvh::any(const UnpreparedRay& ray) const { return any_hit({tree_, primitives_}, ray); }
-
-void Bvh::closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const {
-    closest_hits({tree_, primitives_}, rays, hits, scratch);
-}
-void Bvh::any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const {
-    any_hits({tree_, primitives_}, rays, found, scratch);
+PrimitiveHit Bvh::closest(const Ray& ray, const Query& query) const {
+    ClosestCollector collector(ray, query);
+    trace_closest(tree_, ray, collector);
+    return collector.best();
 }
 
-void Bvh::all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const {
-    const std::size_t first = hits.size();
-    all_hits({tree_, primitives_}, ray, hits);
-    if (tree_.repeats) remove_repeats(hits, first);
+bool Bvh::any(const Ray& ray, const Query& query) const {
+    AnyCollector collector(ray, query);
+    trace_any(tree_, ray, collector);
+    return collector.found();
+}
+
+void Bvh::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const {
+    AllCollector collector(ray, query, hits);
+    trace_all(tree_, ray, collector);
+    if (tree_.repeats) collector.remove_repeats();
+}
+
+void Bvh::closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const {
+    trace_closest_many(tree_, rays, hits, scratch);
+}
+
+void Bvh::any_many(const RayPacket& rays, bool* found, Scratch& scratch) const {
+    trace_any_many(tree_, rays, found, scratch);
 }
 
 Refitted Bvh::refitted(const BuildInput& input, double most) const {
-    std::optional<WideBvh> tree = refit({tree_, primitives_}, input);
+    std::optional<WideBvh> tree = refit(tree_, primitives_, input);
     if (!tree) return {nullptr, "a triangle that could not be hit before is not in the tree", 1.0};
     // Where nothing can be hit there is no cost.
     const double cost = tree->nodes.empty() ? 1.0 : tree_cost(*tree, input.parallel) / tree->built_cost;

@@ -15,14 +15,12 @@ class Bvh : public Accel {
 public:
     explicit Bvh(const BuildInput& input) : Bvh(input, BvhQuality::fast) {}
 
-    SurfaceHit closest(const PreparedRay& ray) const override;
-    bool any(const PreparedRay& ray) const override;
-    SurfaceHit closest(const UnpreparedRay& ray) const override;
-    bool any(const UnpreparedRay& ray) const override;
-    void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
+    PrimitiveHit closest(const Ray& ray, const Query& query) const override;
+    bool any(const Ray& ray, const Query& query) const override;
+    void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override;
     std::size_t rays_at_a_time() const override { return 2048; } // as many as stay in the caches
-    void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const override;
-    void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const override;
+    void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;
+    void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
     Refitted refitted(const BuildInput& input, double most) const override;

@@ -8,7 +8,7 @@
 #include "accel/bvh_build_top_down.h"
 #include "accel/bvh_reinsertion.h"
 #include "accel/bvh_spatial_splits.h"
-#include "accel/scene_frame.h"
+#include "accel/dense_region.h"
 
 #include <algorithm>
 #include <atomic>
@@ -45,15 +45,15 @@ double sibling_overlap(const BvhTree& tree) {
     return whole > 0.0 ? shared / whole : 0.0;
 }
 
-BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const Vec3& center, const Report& report) {
-    BuildReferences references = gather_references(input, center, report);
+BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame, const Report& report) {
+    BuildReferences references = gather_references(input, frame.center(), report);
     const Bounds bounds = references.bounds;
     const std::uint32_t count = references.count;
     auto order = morton_order(references.items.data(), std::move(references.keys), count, input.parallel);
     Clusters clusters(std::move(references.items), std::move(order), count);
     clusters.build(bounds, input.parallel, report);
     BvhTree tree;
-    tree.center = center;
+    tree.frame = frame;
     tree.references.resize(count);
     build_top_down(clusters, bounds, costs, input.parallel, report, tree);
     return tree;
@@ -64,19 +64,19 @@ struct TreeAndCost {
     double cost;
 };
 
-TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeCosts& costs, const Vec3& center,
+TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame,
                              const Report& report) {
     TreeAndCost result;
-    result.tree.center = center;
-    build_with_spatial_splits(gather_references(input, center, report), budget, input, costs, report, result.tree);
+    result.tree.frame = frame;
+    build_with_spatial_splits(gather_references(input, frame.center(), report), budget, input, costs, report, result.tree);
     result.cost = optimise_by_reinsertion(result.tree, costs, input.parallel, report);
     return result;
 }
 
-BvhTree build_high(const BuildInput& input, const TreeCosts& costs, const Vec3& center, const Report& report) {
-    TreeAndCost whole = build_from_above(0.0, input, costs, center, report);
+BvhTree build_high(const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame, const Report& report) {
+    TreeAndCost whole = build_from_above(0.0, input, costs, frame, report);
     if (sibling_overlap(whole.tree) < overlap_to_cut) return std::move(whole.tree);
-    TreeAndCost cut = build_from_above(split_budget, input, costs, center, report);
+    TreeAndCost cut = build_from_above(split_budget, input, costs, frame, report);
     const bool pays = cut.cost < (1.0 - least_gain_by_cutting) * whole.cost;
     return std::move(pays ? cut.tree : whole.tree);
 }
@@ -95,8 +95,8 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
         input.progress.report(progress_end * std::min(1.0, work / whole), "bvh");
     };
     const TreeCosts costs(input, options);
-    const Vec3 center = SceneFrame::choose_center(input.primitives.bounds());
-    return is_high ? build_high(input, costs, center, report) : build_fast(input, costs, center, report);
+    const SceneFrame frame = scene_frame(input.primitives);
+    return is_high ? build_high(input, costs, frame, report) : build_fast(input, costs, frame, report);
 }
 
 } // namespace raywise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "ray/scene_frame.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace raywise {
 // No node lies deeper, so a traversal that pushes at most one node per level needs no more entries.
 inline constexpr int bvh_max_depth = 64;
 
-// 32 bytes: a float32 box, rounded outwards, relative to BvhTree::center; and what is inside.
+// 32 bytes: a float32 box, rounded outwards, relative to the frame's center; and what is inside.
 struct BvhNode {
     float planes[2][3];  // lower and upper corner, so that a ray picks its entry planes by the signs of its direction
     std::uint32_t first; // leaf: its first reference; otherwise the pair of its children
@@ -30,10 +31,7 @@ struct alignas(64) BvhPair {
 // A pair's index is above that of the pair its parent is in. Without any primitive that can be hit all is empty, the
 // root too.
 struct BvhTree {
-    // What the boxes are relative to: zero, or, where the scene lies far from the origin of coordinates compared with
-    // its size, its middle. float32 resolves 0.5 m at a distance of 5,000 km: boxes of millimetre triangles that are
-    // kept in float64 would all be alike there.
-    Vec3 center{0.0};
+    SceneFrame frame; // boxes are relative to its center, and not scaled
     BvhNode root{};
     std::vector<BvhPair> pairs;
     std::vector<std::uint32_t> references; // primitives, in the order of the leaves

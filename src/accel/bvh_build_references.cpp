@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint64_t chunk_size = 16384; // primitives between two reports
 
 BuildItem make_item(const Corners& c, const Vec3& center) {
-    const BoxF box =
-        round_outwards({glm::min(c[0], glm::min(c[1], c[2])) - center, glm::max(c[0], glm::max(c[1], c[2])) - center});
+    const Box exact{glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))};
+    const BoxF box = round_outwards(SceneFrame::relative(exact, center));
     BuildItem item;
     for (int axis = 0; axis < 3; ++axis) {
         item.lower[axis] = box.lower[axis];
@@ -44,7 +44,7 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
     references.items = PageArray<BuildItem>(references.count);
     references.keys = PageArray<MortonKey>(references.count);
-    const BoxF box = round_outwards({primitives.bounds().lower - center, primitives.bounds().upper - center});
+    const BoxF box = round_outwards(SceneFrame::relative(primitives.bounds(), center));
     const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f},
                      Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
     const MortonGrid grid(all);

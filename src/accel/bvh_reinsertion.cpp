@@ -108,6 +108,8 @@ private:
             node.child[i] = 2 * from.first + i + 1;
             take_apart(tree, tree.pairs[from.first].child[i], node.child[i], index);
         }
+        node.box = Bounds::none(); // which no node has: fit() compares
+        node.height = 0;
         fit(node);
     }
 

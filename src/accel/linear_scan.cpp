@@ -1,5 +1,6 @@
 #include "accel/linear_scan.h"
 
+#include "accel/dense_region.h"
 #include "geometry/corner_lines.h"
 
 #include <algorithm>
@@ -11,27 +12,11 @@ namespace {
 // Whole blocks; progress is reported after each task.
 constexpr std::uint64_t blocks_per_task = 2048;
 
-// Those of many rays that can hit something, and which they are.
-struct TraceableRays {
-    TraceableRays(const UnpreparedRays& all, Scratch& scratch)
-        : rays(scratch.take<PreparedRay>(all.count)), index(scratch.take<std::size_t>(all.count)) {
-        for (std::size_t i = 0; i < all.count; ++i) {
-            if (!PreparedRay::is_traceable(all.rays[i])) continue;
-            rays[count] = all[i].prepare();
-            index[count++] = i;
-        }
-    }
-
-    PreparedRay* const rays;
-    std::size_t* const index;
-    std::size_t count = 0;
-};
-
 } // namespace
 
 LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) {
     if (primitives_.hittable_count() == 0) return;
-    frame_ = SceneFrame(primitives_.bounds());
+    frame_ = scene_frame(primitives_);
     if (input.few_rays) return;
     const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
     // Without blocks a scan is slower; that is no reason to have none.
@@ -55,38 +40,33 @@ void LinearScan::gather(const BuildInput& input) {
 
 ScannedScene LinearScan::scanned() const { return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}; }
 
-SurfaceHit LinearScan::closest(const PreparedRay& ray) const {
-    SurfaceHit hit;
-    if (primitives_.hittable_count() > 0) scan_closest(scanned(), &ray, 1, &hit);
-    return hit;
+PrimitiveHit LinearScan::closest(const Ray& ray, const Query& query) const {
+    ClosestCollector collector(ray, query);
+    scan_closest(scanned(), &ray, 1, &collector);
+    return collector.best();
 }
 
-bool LinearScan::any(const PreparedRay& ray) const {
-    bool found = false;
-    if (primitives_.hittable_count() > 0) scan_any(scanned(), &ray, 1, &found);
-    return found;
+bool LinearScan::any(const Ray& ray, const Query& query) const {
+    AnyCollector collector(ray, query);
+    scan_any(scanned(), &ray, 1, &collector);
+    return collector.found();
 }
 
-void LinearScan::all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const {
-    if (primitives_.hittable_count() > 0) scan_all(scanned(), ray, hits);
+void LinearScan::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const {
+    AllCollector collector(ray, query, hits);
+    scan_all(scanned(), ray, collector);
 }
 
-void LinearScan::closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const {
-    std::fill_n(hits.hits, rays.count, PrimitiveHit{});
-    if (primitives_.hittable_count() == 0) return;
-    const TraceableRays traceable(rays, scratch);
-    auto* const found = scratch.take<SurfaceHit>(traceable.count);
-    scan_closest(scanned(), traceable.rays, traceable.count, found);
-    for (std::size_t k = 0; k < traceable.count; ++k) hits.put(traceable.index[k], found[k]);
+void LinearScan::closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const {
+    const Collectors<ClosestCollector> collectors(rays, scratch);
+    scan_closest(scanned(), rays.rays, rays.count, collectors.data());
+    for (std::size_t i = 0; i < rays.count; ++i) hits[i] = collectors[i].best();
 }
 
-void LinearScan::any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const {
-    std::fill_n(found, rays.count, false);
-    if (primitives_.hittable_count() == 0) return;
-    const TraceableRays traceable(rays, scratch);
-    auto* const answers = scratch.take<bool>(traceable.count);
-    scan_any(scanned(), traceable.rays, traceable.count, answers);
-    for (std::size_t k = 0; k < traceable.count; ++k) found[traceable.index[k]] = answers[k];
+void LinearScan::any_many(const RayPacket& rays, bool* found, Scratch& scratch) const {
+    const Collectors<AnyCollector> collectors(rays, scratch);
+    scan_any(scanned(), rays.rays, rays.count, collectors.data());
+    for (std::size_t i = 0; i < rays.count; ++i) found[i] = collectors[i].found();
 }
 
 } // namespace raywise

@@ -7,8 +7,8 @@
 
 #include "accel/accel.h"
 #include "accel/linear_scan_kernels.h"
-#include "accel/scene_frame.h"
 #include "base/page_array.h"
+#include "ray/scene_frame.h"
 
 namespace raywise {
 
@@ -16,14 +16,12 @@ class LinearScan final : public Accel {
 public:
     explicit LinearScan(const BuildInput& input);
 
-    using Accel::any;
-    using Accel::closest;
-    SurfaceHit closest(const PreparedRay& ray) const override;
-    bool any(const PreparedRay& ray) const override;
-    void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const override;
+    PrimitiveHit closest(const Ray& ray, const Query& query) const override;
+    bool any(const Ray& ray, const Query& query) const override;
+    void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override;
     std::size_t rays_at_a_time() const override { return 64; } // what they share is paid for with 8 already
-    void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const override;
-    void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const override;
+    void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;
+    void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + blocks_.bytes(); }
     bool is_gathered() const { return !blocks_.empty(); }

@@ -10,6 +10,7 @@
 #include "geometry/corner_lines-inl.h"
 
 #include <algorithm>
+#include <optional>
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
@@ -27,7 +28,7 @@ constexpr std::uint32_t tile_triangles = tile_blocks * corner_block;
 // So many rays go through the triangles together: their numbers stay beside a tile.
 constexpr std::size_t rays_together = 32;
 
-CornerFrame corner_frame(const SceneFrame& frame) { return {frame.from_frame(Vec3(0.0)), frame.scale()}; }
+CornerFrame corner_frame(const SceneFrame& frame) { return {frame.center(), frame.scale()}; }
 
 template <class Mask>
 HWY_INLINE std::uint32_t bits_of(Mask mask) {
@@ -49,8 +50,7 @@ public:
           offset_y_(hn::Set(Lanes(), ray.offset_y)),
           scene_error_(hn::Set(Lanes(), ray.scene_error)),
           minus_scene_error_(hn::Neg(scene_error_)),
-          four_e_(hn::Set(Lanes(), ray.four_e)),
-          two_e_e_(hn::Set(Lanes(), ray.two_e_e)) {}
+          start_error_(hn::Set(Lanes(), ray.start_error)) {}
 
     // Which of the triangles whose corners begin at `lines` may be hit by the line of the ray. NaN never is: comparisons are written
     // for that. The bound of the scene rules out nearly all; where it does not, the one that goes by how far the corners are from
@@ -67,9 +67,12 @@ public:
         const Vector lowest = hn::Min(wa, hn::Min(wb, wc));
         const auto near = hn::Or(hn::Ge(lowest, minus_scene_error_), hn::Le(highest, scene_error_));
         if (HWY_LIKELY(hn::AllFalse(d, near))) return 0;
+        const Vector largest = hn::Max(size_of(lines), hn::Max(size_of(lines + 3 * corner_block), size_of(lines + 6 * corner_block)));
+        const Vector e = hn::MulAdd(hn::Set(d, ScanRay::corner_error), largest, start_error_);
         const Vector reach = hn::Max(reach_of(a), hn::Max(reach_of(b), reach_of(c)));
-        // 2^-21 R^2 is twice 4 u R^2, for the rounding of this line.
-        const Vector error = hn::MulAdd(reach, hn::MulAdd(hn::Set(d, 0x1p-21f), reach, four_e_), two_e_e_);
+        // 2^-21 R^2 is twice 4 u R^2, for the rounding of these lines.
+        const Vector error = hn::MulAdd(reach, hn::MulAdd(hn::Set(d, 0x1p-21f), reach, hn::Mul(hn::Set(d, 4.0f), e)),
+                                        hn::Mul(hn::Add(e, e), e));
         return bits_of(hn::Or(hn::Ge(lowest, hn::Neg(error)), hn::Le(highest, error)));
     }
 
@@ -84,6 +87,12 @@ private:
         return {hn::NegMulAdd(shear_x_, z, hn::Sub(hn::Load(d, lines + x_), offset_x_)),
                 hn::NegMulAdd(shear_y_, z, hn::Sub(hn::Load(d, lines + y_), offset_y_))};
     }
+    // The largest coordinate of a corner.
+    static HWY_INLINE Vector size_of(const float* lines) {
+        const Lanes d;
+        return hn::Max(hn::Abs(hn::Load(d, lines)),
+                       hn::Max(hn::Abs(hn::Load(d, lines + corner_block)), hn::Abs(hn::Load(d, lines + 2 * corner_block))));
+    }
     static HWY_INLINE Vector reach_of(const Point& p) { return hn::Max(hn::Abs(p.x), hn::Abs(p.y)); }
 
     std::size_t x_;
@@ -95,8 +104,7 @@ private:
     Vector offset_y_;
     Vector scene_error_;
     Vector minus_scene_error_;
-    Vector four_e_;
-    Vector two_e_e_;
+    Vector start_error_;
 };
 
 // Blocks of primitives from `first` on against one ray: sink(primitive) for those it may hit, until that returns true. Returns whether
@@ -157,80 +165,49 @@ void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size
     }
 }
 
-// Makes the rays ready, those that may hit something, in groups; sink_of(i) makes what takes ray i's hits.
-template <class Sink, class SinkOf>
-void scan_in_groups(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, const SinkOf& sink_of) {
+// What a ray may hit goes to the exact test, and from there to its collector.
+template <class Collector>
+struct Candidates {
+    const Primitives* primitives;
+    const ExactRay* ray;
+    Collector* collector;
+
+    bool operator()(std::uint32_t primitive) const {
+        PrimitiveHit hit;
+        return primitives->test(*ray, primitive, hit) && collector->collect(hit);
+    }
+};
+
+// Sets the rays up, those that may hit something, in groups.
+template <class Collector>
+void scan_in_groups(const ScannedScene& scene, const Ray* rays, std::size_t count, Collector* collectors) {
+    if (scene.primitives.hittable_count() == 0) return;
+    std::optional<ExactRay> exact[rays_together];
     ScanRay group[rays_together];
-    Sink sinks[rays_together];
+    Candidates<Collector> candidates[rays_together];
     std::size_t size = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const FrameRay frame_ray(rays[i], scene.frame);
-        if (frame_ray.misses()) continue;
-        group[size] = ScanRay(frame_ray);
-        sinks[size] = sink_of(i);
+        if (!rays[i].is_traceable()) continue;
+        exact[size].emplace(rays[i]);
+        if (!group[size].set(*exact[size], scene.frame)) continue;
+        candidates[size] = {&scene.primitives, &*exact[size], collectors + i};
         if (++size < rays_together) continue;
-        scan(scene, group, sinks, size);
+        scan(scene, group, candidates, size);
         size = 0;
     }
-    if (size > 0) scan(scene, group, sinks, size);
+    if (size > 0) scan(scene, group, candidates, size);
 }
 
-struct ClosestSink {
-    const Primitives* primitives;
-    const PreparedRay* ray;
-    SurfaceHit* best;
-
-    bool operator()(std::uint32_t primitive) const {
-        PrimitiveHit hit;
-        if (primitives->test(*ray, primitive, hit) && hit < *best) static_cast<PrimitiveHit&>(*best) = hit;
-        return false;
-    }
-};
-
-struct AnySink {
-    const Primitives* primitives;
-    const PreparedRay* ray;
-    bool* found;
-
-    bool operator()(std::uint32_t primitive) const {
-        PrimitiveHit hit;
-        if (!primitives->test(*ray, primitive, hit)) return false;
-        *found = true;
-        return true;
-    }
-};
-
-struct AllSink {
-    const Primitives* primitives;
-    const PreparedRay* ray;
-    std::vector<PrimitiveHit>* hits;
-
-    bool operator()(std::uint32_t primitive) const {
-        PrimitiveHit hit;
-        if (primitives->test(*ray, primitive, hit)) hits->push_back(hit);
-        return false;
-    }
-};
-
-void scan_closest_kernel(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, SurfaceHit* hits) {
-    std::fill_n(hits, count, SurfaceHit{});
-    scan_in_groups<ClosestSink>(scene, rays, count, [&](std::size_t i) {
-        return ClosestSink{&scene.primitives, rays + i, hits + i};
-    });
-    for (std::size_t i = 0; i < count; ++i) {
-        if (hits[i].is_hit()) hits[i].corners = scene.primitives.corners(hits[i].primitive);
-    }
+void scan_closest_kernel(const ScannedScene& scene, const Ray* rays, std::size_t count, ClosestCollector* collectors) {
+    scan_in_groups(scene, rays, count, collectors);
 }
 
-void scan_any_kernel(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, bool* found) {
-    std::fill_n(found, count, false);
-    scan_in_groups<AnySink>(scene, rays, count, [&](std::size_t i) {
-        return AnySink{&scene.primitives, rays + i, found + i};
-    });
+void scan_any_kernel(const ScannedScene& scene, const Ray* rays, std::size_t count, AnyCollector* collectors) {
+    scan_in_groups(scene, rays, count, collectors);
 }
 
-void scan_all_kernel(const ScannedScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
-    scan_in_groups<AllSink>(scene, &ray, 1, [&](std::size_t) { return AllSink{&scene.primitives, &ray, &hits}; });
+void scan_all_kernel(const ScannedScene& scene, const Ray& ray, AllCollector& collector) {
+    scan_in_groups(scene, &ray, 1, &collector);
 }
 
 } // namespace
@@ -249,14 +226,14 @@ void gather_blocks(const Primitives& primitives, const SceneFrame& frame, std::u
                    float* blocks) {
     HWY_DYNAMIC_DISPATCH(gather_kernel)(primitives, frame, first, end, blocks);
 }
-void scan_closest(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, SurfaceHit* hits) {
-    HWY_DYNAMIC_DISPATCH(scan_closest_kernel)(scene, rays, count, hits);
+void scan_closest(const ScannedScene& scene, const Ray* rays, std::size_t count, ClosestCollector* collectors) {
+    HWY_DYNAMIC_DISPATCH(scan_closest_kernel)(scene, rays, count, collectors);
 }
-void scan_any(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, bool* found) {
-    HWY_DYNAMIC_DISPATCH(scan_any_kernel)(scene, rays, count, found);
+void scan_any(const ScannedScene& scene, const Ray* rays, std::size_t count, AnyCollector* collectors) {
+    HWY_DYNAMIC_DISPATCH(scan_any_kernel)(scene, rays, count, collectors);
 }
-void scan_all(const ScannedScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits) {
-    HWY_DYNAMIC_DISPATCH(scan_all_kernel)(scene, ray, hits);
+void scan_all(const ScannedScene& scene, const Ray& ray, AllCollector& collector) {
+    HWY_DYNAMIC_DISPATCH(scan_all_kernel)(scene, ray, collector);
 }
 
 } // namespace raywise

@@ -2,18 +2,17 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "accel/scene_frame.h"
-#include "base/ray.h"
+#include "accel/collectors.h"
 #include "geometry/primitives.h"
+#include "ray/scene_frame.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
 
 struct ScannedScene {
-    const Primitives& primitives; // at least one of which can be hit
+    const Primitives& primitives; // where none can be hit nothing is scanned
     const SceneFrame& frame;
     // All primitives in the order of their numbers (geometry/corner_lines.h), in coordinates of the frame; null: they are read from
     // the meshes.
@@ -25,10 +24,9 @@ struct ScannedScene {
 void gather_blocks(const Primitives& primitives, const SceneFrame& frame, std::uint32_t first, std::uint32_t end,
                    float* blocks);
 
-// For all rays in one pass over the triangles. hits[i]: the first hit of rays[i] in the order of PrimitiveHit, or no hit.
-void scan_closest(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, SurfaceHit* hits);
-void scan_any(const ScannedScene& scene, const PreparedRay* rays, std::size_t count, bool* found);
-// Appends every hit, in the order of the primitives.
-void scan_all(const ScannedScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits);
+// For all rays in one pass over the triangles; collectors: of each ray. Rays that are not traceable hit nothing.
+void scan_closest(const ScannedScene& scene, const Ray* rays, std::size_t count, ClosestCollector* collectors);
+void scan_any(const ScannedScene& scene, const Ray* rays, std::size_t count, AnyCollector* collectors);
+void scan_all(const ScannedScene& scene, const Ray& ray, AllCollector& collector);
 
 } // namespace raywise

@@ -143,18 +143,19 @@ private:
 
 } // namespace
 
-PlaneRay::PlaneRay(const PreparedRay& ray, const ProjectedRay& projected, const PlaneTree& tree)
+PlaneRay::PlaneRay(const ExactRay& ray, const ProjectedRay& projected, const PlaneTree& tree, double largest_extent)
     : cut_(float_above(projected.cut - tree.depth_center)),
       depth_(projected.depth - tree.depth_center),
       rate_(projected.depth_rate),
       depth_error_(projected.depth_error),
-      margin_(ray.margin) {
+      largest_extent_(largest_extent),
+      scale_(ray.scale) {
     for (int i = 0; i < 2; ++i) {
         sides_[i] = float_above(projected.upper[i] - tree.center[i]);
         sides_[2 + i] = -float_below(projected.lower[i] - tree.center[i]);
     }
     // The depth of where the ray starts, which stays, and of the limit, which moves.
-    const double start = depth_ + (ray.tmin - ray.margin) * rate_;
+    const double start = depth_ + (ray.scaled_tmin - hit_error(ray.scaled_tmin, largest_extent)) * rate_;
     near_ = float_below(start - depth_error_);
     far_ = float_above(start + depth_error_);
     set_limit(ray.tmax);
@@ -163,7 +164,7 @@ PlaneRay::PlaneRay(const PreparedRay& ray, const ProjectedRay& projected, const 
 ProjectedBvh::ProjectedBvh(const BuildInput& input, ProjectionScheme scheme)
     : TraversedAccel(input.primitives), tree_(build_bvh(input, input.view ? 0.7 : 1.0)), scheme_(scheme) {
     if (!input.view || tree_.empty() || scheme_ == ProjectionScheme::boxes) return;
-    view_ = ViewPlanes(*input.view, input.primitives.bounds());
+    view_ = ViewPlanes(*input.view, scene_extent(input.primitives));
     const std::size_t count = view_.planes().size();
     for (std::size_t i = 0; i < count; ++i) {
         input.progress.report(0.7 + 0.3 * static_cast<double>(i) / static_cast<double>(count), "projection");
@@ -178,7 +179,7 @@ std::size_t ProjectedBvh::bytes() const {
     return bytes;
 }
 
-const PlaneTree* ProjectedBvh::find_plane(const PreparedRay& ray, PlaneRay& plane_ray) const {
+const PlaneTree* ProjectedBvh::find_plane(const ExactRay& ray, PlaneRay& plane_ray) const {
     if (trees_.empty()) return nullptr;
     const auto plane = static_cast<std::size_t>(view_.choose(ray));
     ProjectedRay projected;
@@ -187,7 +188,7 @@ const PlaneTree* ProjectedBvh::find_plane(const PreparedRay& ray, PlaneRay& plan
     if (tree.empty) return &tree;
     const Vec2 size = projected.upper - projected.lower;
     if (!(std::max(size.x, size.y) <= tree.widest_ray)) return nullptr;
-    plane_ray = PlaneRay(ray, projected, tree);
+    plane_ray = PlaneRay(ray, projected, tree, primitives().largest_extent());
     return &tree;
 }
 

@@ -14,7 +14,7 @@
 #include "accel/binary_traversal.h"
 #include "accel/bvh_build.h"
 #include "accel/projection.h"
-#include "accel/visitors.h"
+#include "accel/traversed_accel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -87,11 +87,13 @@ struct PlaneTree {
 class PlaneRay {
 public:
     PlaneRay() = default;
-    PlaneRay(const PreparedRay& ray, const ProjectedRay& projected, const PlaneTree& tree);
+    // largest_extent: of a primitive.
+    PlaneRay(const ExactRay& ray, const ProjectedRay& projected, const PlaneTree& tree, double largest_extent);
 
-    // Depths at which hits from the ray's start to `limit` lie.
+    // Depths at which hits from the ray's start to `limit`, a t of the caller's, lie.
     void set_limit(double limit) {
-        const double depth = depth_ + (limit + margin_) * rate_;
+        const double t = scale_.from_caller(limit);
+        const double depth = depth_ + (t + hit_error(t, largest_extent_)) * rate_;
         if (rate_ > 0.0) {
             far_ = float_above(depth + depth_error_);
         } else {
@@ -114,7 +116,8 @@ private:
     double depth_; // of the ray's origin, less the tree's center
     double rate_;
     double depth_error_;
-    double margin_;
+    double largest_extent_;
+    DirectionScale scale_;
 };
 
 class ProjectedBvh final : public TraversedAccel<ProjectedBvh> {
@@ -124,36 +127,54 @@ public:
     std::size_t bytes() const override;
 
     // Whether a ray is answered on a plane.
-    bool uses_projection(const PreparedRay& ray) const {
+    bool uses_projection(const ExactRay& ray) const {
         PlaneRay plane_ray;
         return find_plane(ray, plane_ray) != nullptr;
     }
     std::size_t plane_count() const { return trees_.size(); }
 
-    template <class Visitor>
-    void traverse(const PreparedRay& ray, Visitor& visitor) const {
+    template <class Collector>
+    void traverse(const ExactRay& ray, Collector& collector) const {
         PlaneRay plane_ray;
         const PlaneTree* const tree = find_plane(ray, plane_ray);
         if (tree == nullptr) {
-            traverse_boxes(tree_, ray, visitor);
+            traverse_tree(ray, collector);
         } else if (scheme_ == ProjectionScheme::combined) {
-            const BoxRay box_ray(ray, tree_.center);
-            traverse_plane(*tree, plane_ray, visitor, [&](std::uint32_t pair, int child, double limit) {
+            const CellRay cell_ray(ray, primitives().bounds(), primitives().largest_extent());
+            const BoxRay box_ray(cell_ray, tree_.frame.center());
+            traverse_plane(*tree, ray, plane_ray, collector, [&](std::uint32_t pair, int child) {
                 const std::uint32_t box = tree->boxes[2 * pair + static_cast<std::uint32_t>(child)];
                 double near;
-                return box_ray.may_hit(tree_.pairs[box / 2].child[box % 2], limit, near);
+                return !cell_ray.is_known() || box_ray.may_hit(tree_.pairs[box / 2].child[box % 2],
+                                                               cell_ray.upper_end(collector.limit()), near);
             });
         } else {
-            traverse_plane(*tree, plane_ray, visitor, [](std::uint32_t, int, double) { return true; });
+            traverse_plane(*tree, ray, plane_ray, collector, [](std::uint32_t, int) { return true; });
         }
     }
 
 private:
     // The plane tree that answers a ray; null: none.
-    const PlaneTree* find_plane(const PreparedRay& ray, PlaneRay& plane_ray) const;
+    const PlaneTree* find_plane(const ExactRay& ray, PlaneRay& plane_ray) const;
 
-    template <class Visitor, class BoxTest>
-    void traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor, const BoxTest& may_hit_box) const;
+    template <class Collector>
+    void traverse_tree(const ExactRay& ray, Collector& collector) const {
+        const CellRay cell_ray(ray, primitives().bounds(), primitives().largest_extent());
+        if (!cell_ray.is_known()) return test_all_primitives(ray, collector);
+        traverse_boxes(tree_, cell_ray, [&](const BvhNode& leaf, double& last) {
+            const double limit = collector.limit();
+            if (test_leaf(leaf.first, leaf.count, ray, collector)) return true;
+            if (collector.limit() < limit) last = cell_ray.upper_end(collector.limit());
+            return false;
+        });
+    }
+    template <class Collector, class BoxTest>
+    void traverse_plane(const PlaneTree& tree, const ExactRay& ray, PlaneRay& plane_ray, Collector& collector,
+                        const BoxTest& may_hit_box) const;
+    template <class Collector>
+    bool test_leaf(std::uint32_t first, std::uint32_t count, const ExactRay& ray, Collector& collector) const {
+        return test_primitives(primitives(), ray, &tree_.references[first], count, collector);
+    }
 
     BvhTree tree_;
     ProjectionScheme scheme_;
@@ -161,32 +182,29 @@ private:
     std::vector<PlaneTree> trees_; // one for each plane
 };
 
-template <class Visitor, class BoxTest>
-void ProjectedBvh::traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor& visitor,
-                                  const BoxTest& may_hit_box) const {
+template <class Collector, class BoxTest>
+void ProjectedBvh::traverse_plane(const PlaneTree& tree, const ExactRay& ray, PlaneRay& plane_ray,
+                                  Collector& collector, const BoxTest& may_hit_box) const {
     const PlaneNode* stack[bvh_max_depth]; // at most one per level
     int height = 0;
-    const int first_child = ray.is_forward() ? 0 : 1;
+    const int first_child = plane_ray.is_forward() ? 0 : 1;
 
-    double limit = visitor.limit();
+    double limit = collector.limit();
     const PlaneNode* node = &tree.root;
-    if (tree.empty || !ray.overlaps(*node)) return;
+    if (tree.empty || !plane_ray.overlaps(*node)) return;
     for (;;) {
         if (node->is_leaf()) {
-            const std::uint32_t* const references = &tree_.references[node->first];
-            for (std::uint32_t i = 0; i < node->count; ++i) {
-                if (visitor.visit(references[i])) return;
-            }
-            if (visitor.limit() < limit) {
-                limit = visitor.limit();
-                ray.set_limit(limit);
+            if (test_leaf(node->first, node->count, ray, collector)) return;
+            if (collector.limit() < limit) {
+                limit = collector.limit();
+                plane_ray.set_limit(limit);
             }
         } else {
             const PlanePair& pair = tree.pairs[node->first];
             const PlaneNode& nearer = pair.child[first_child];
             const PlaneNode& farther = pair.child[1 - first_child];
-            const bool hit_nearer = ray.overlaps(nearer) && may_hit_box(node->first, first_child, limit);
-            const bool hit_farther = ray.overlaps(farther) && may_hit_box(node->first, 1 - first_child, limit);
+            const bool hit_nearer = plane_ray.overlaps(nearer) && may_hit_box(node->first, first_child);
+            const bool hit_farther = plane_ray.overlaps(farther) && may_hit_box(node->first, 1 - first_child);
             if (hit_nearer) {
                 if (hit_farther) stack[height++] = &farther;
                 node = &nearer;
@@ -201,7 +219,7 @@ void ProjectedBvh::traverse_plane(const PlaneTree& tree, PlaneRay& ray, Visitor&
         do {
             if (height == 0) return;
             node = stack[--height];
-        } while (!ray.overlaps_depth(*node));
+        } while (!plane_ray.overlaps_depth(*node));
     }
 }
 

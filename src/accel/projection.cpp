@@ -1,5 +1,7 @@
 #include "accel/projection.h"
 
+#include "ray/cell_ray.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,11 +49,14 @@ ProjectionPlane::Coordinates ProjectionPlane::coordinates(const Vec3& point) con
     return c;
 }
 
-ProjectionPlane::ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const Vec3& forward, const Box& bounds)
+ProjectionPlane::ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const Vec3& forward,
+                                 const SceneExtent& scene)
     : kind_(kind),
       origin_(origin),
       forward_(forward / std::sqrt(glm::dot(forward, forward))),
-      reach_(max_component(glm::max(glm::abs(bounds.lower - origin), glm::abs(bounds.upper - origin)))) {
+      reach_(max_component(glm::max(glm::abs(scene.bounds.lower - origin),
+                                    glm::abs(scene.bounds.upper - origin)))),
+      largest_extent_(scene.largest_extent) {
     // Across: the axis of coordinates that is farthest from `forward` keeps the frame well conditioned; for a cube's
     // planes the frame is made of the axes themselves and does not round.
     const Vec3 size = glm::abs(forward_);
@@ -62,23 +67,28 @@ ProjectionPlane::ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const
     up_ = glm::cross(forward_, right_);
 }
 
-std::vector<ProjectionPlane> ProjectionPlane::of_view(const ViewFrame& view, const Box& bounds) {
+std::vector<ProjectionPlane> ProjectionPlane::of_view(const ViewFrame& view, const SceneExtent& scene) {
     std::vector<ProjectionPlane> planes;
+    const Box& bounds = scene.bounds;
     if (bounds.empty() || !is_finite(view.origin) || !is_finite(view.direction)) return planes;
     const bool has_direction = view.direction != Vec3(0.0);
 
     if (view.kind == ViewFrame::Kind::direction) {
         if (!has_direction) return planes;
-        planes.push_back(ProjectionPlane(view.kind, bounds.center(), scaled_to_one(view.direction), bounds));
+        planes.push_back(ProjectionPlane(view.kind, bounds.center(), scaled_to_one(view.direction), scene));
         return planes;
     }
 
     if (max_component(glm::abs(view.origin)) > largest_coordinate) return planes;
+    // Rays that aim at the point in float32 pass it by 2^-24 of their length. Where the scene reaches so far that most of it would be in
+    // the core, the rays from its far end are left to the other trees.
+    const double reach = max_component(larger(magnitudes(bounds.lower - view.origin), magnitudes(bounds.upper - view.origin)));
+    const double core = smaller(0x1p-18 * reach, 0.25 * scene.near_distance(view.origin));
     // Rays at the very edge belong to the plane, whichever way their slope is rounded.
     constexpr double rounding = 1.0 + 0x1p-20;
     const auto add = [&](const Vec3& forward, double slope) {
-        ProjectionPlane plane(view.kind, view.origin, forward, bounds);
-        plane.core_ = 0x1p-18 * plane.reach_;
+        ProjectionPlane plane(view.kind, view.origin, forward, scene);
+        plane.core_ = core;
         plane.slope_limit_ = slope * rounding;
         plane.clip_limit_ = plane.slope_limit_ + 0.125 * std::max(1.0, plane.slope_limit_);
         planes.push_back(plane);
@@ -191,7 +201,7 @@ bool ProjectionPlane::may_touch_core(const Corners& corners, const Coordinates (
 
 // ---- Rays.
 
-bool ProjectionPlane::project(const PreparedRay& ray, ProjectedRay& projected) const {
+bool ProjectionPlane::project(const ExactRay& ray, ProjectedRay& projected) const {
     return kind_ == ViewFrame::Kind::point ? project_from_point(ray, projected)
                                            : project_along_direction(ray, projected);
 }
@@ -212,12 +222,10 @@ double ProjectionPlane::depth_error(const Vec3& offset, double inverse_rate) con
 //
 // A ray is only accepted when what happens around the point is in the core, a ball of radius core_ whose triangles
 // cover all of the plane:
-// - Hits have t* in [tmin - margin, tmax + margin] (base/ray.h), a little outside of what the ray asks for: from there
-//   follows the least depth `least` of any hit. The margin is 2^-34 of the ray's reach, and the core 2^-18 of the
-//   view's.
+// - Hits have t* a little outside of what the ray asks for (hit_error): from there follows the least depth `least` of any hit.
 // - At depths above `inner`, |u| = |b + a / z| is below clip_limit_, where the plane knows all of the scene.
 // - At depths between `least` and `inner` the line stays within core_ / 2 of the point on each axis of the frame.
-bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& projected) const {
+bool ProjectionPlane::project_from_point(const ExactRay& ray, ProjectedRay& projected) const {
     const double dz = glm::dot(forward_, ray.direction);
     if (!(std::fabs(dz) > 0x1p-40)) return false;
     const double inverse = 1.0 / dz;
@@ -240,7 +248,9 @@ bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& p
         if (!(a <= core_)) return false; // passes the point
     }
 
-    double least = depth + (dz > 0.0 ? (ray.tmin - ray.margin) * dz : (ray.tmax + ray.margin) * dz);
+    const double tmax = ray.scale.from_caller(ray.tmax);
+    double least = depth + (dz > 0.0 ? (ray.scaled_tmin - hit_error(ray.scaled_tmin, largest_extent_)) * dz
+                                     : (tmax + hit_error(tmax, largest_extent_)) * dz);
     const double depth_slack = depth_error(offset, inverse);
     least -= depth_slack + 0x1p-44 * std::fabs(least) * (1.0 + std::fabs(inverse));
     const double inner = a / (clip_limit_ - slope_limit_);
@@ -264,7 +274,7 @@ bool ProjectionPlane::project_from_point(const PreparedRay& ray, ProjectedRay& p
 }
 
 // Here u = a + b z itself is the line, and b nearly zero. All of the scene has |z| below `extent`.
-bool ProjectionPlane::project_along_direction(const PreparedRay& ray, ProjectedRay& projected) const {
+bool ProjectionPlane::project_along_direction(const ExactRay& ray, ProjectedRay& projected) const {
     const double dz = glm::dot(forward_, ray.direction);
     if (!(std::fabs(dz) > 0x1p-1)) return false;
     const double inverse = 1.0 / dz;
@@ -287,9 +297,10 @@ bool ProjectionPlane::project_along_direction(const PreparedRay& ray, ProjectedR
 
 // ---- The choice of a plane.
 
-ViewPlanes::ViewPlanes(const ViewFrame& view, const Box& bounds) : planes_(ProjectionPlane::of_view(view, bounds)) {}
+ViewPlanes::ViewPlanes(const ViewFrame& view, const SceneExtent& scene)
+    : planes_(ProjectionPlane::of_view(view, scene)) {}
 
-int ViewPlanes::choose(const PreparedRay& ray) const {
+int ViewPlanes::choose(const ExactRay& ray) const {
     if (planes_.size() < 6) return static_cast<int>(planes_.size()) - 1;
     // Away from the point, or towards it.
     const Vec3 offset = ray.origin - planes_.front().origin_;

@@ -9,6 +9,8 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "accel/dense_region.h"
+#include "ray/exact_ray.h"
 
 #include <cmath>
 #include <limits>
@@ -47,27 +49,26 @@ struct ProjectedRay {
 class ProjectionPlane {
 public:
     // The planes of a view: one, or six around a point (the thesis's light cube, 3.2.1; in the order +x, -x, +y, -y,
-    // +z, -z); none where a view cannot be used, its point so far away that squares overflow, say. bounds: of the
-    // scene.
-    static std::vector<ProjectionPlane> of_view(const ViewFrame& view, const Box& bounds);
+    // +z, -z); none where a view cannot be used, its point so far away that squares overflow, say.
+    static std::vector<ProjectionPlane> of_view(const ViewFrame& view, const SceneExtent& scene);
 
     // Covers all points at which a ray that project() accepts can hit the triangle.
     Footprint footprint(const Corners& corners) const;
 
     // False when the plane cannot take the ray: it does not run through the view's point (in its direction), looks past
     // the plane, or passes the point.
-    bool project(const PreparedRay& ray, ProjectedRay& projected) const;
+    bool project(const ExactRay& ray, ProjectedRay& projected) const;
 
 private:
-    ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const Vec3& forward, const Box& bounds);
+    ProjectionPlane(ViewFrame::Kind kind, const Vec3& origin, const Vec3& forward, const SceneExtent& scene);
 
     struct Coordinates; // of a point in the frame, with bounds on their errors
 
     Coordinates coordinates(const Vec3& point) const;
     Footprint point_footprint(const Corners& corners, const Coordinates (&c)[3]) const;
     bool may_touch_core(const Corners& corners, const Coordinates (&c)[3]) const;
-    bool project_from_point(const PreparedRay& ray, ProjectedRay& projected) const;
-    bool project_along_direction(const PreparedRay& ray, ProjectedRay& projected) const;
+    bool project_from_point(const ExactRay& ray, ProjectedRay& projected) const;
+    bool project_along_direction(const ExactRay& ray, ProjectedRay& projected) const;
     double depth_error(const Vec3& offset, double inverse_rate) const;
 
     ViewFrame::Kind kind_;
@@ -76,6 +77,7 @@ private:
     Vec3 up_;
     Vec3 forward_;
     double reach_;             // no point of the scene is farther from the origin on any axis
+    double largest_extent_;    // of a primitive
     double core_ = 0.0;        // radius about the view's point; see project_from_point
     double slope_limit_ = 0.0; // |u| and |v| of the rays the plane takes
     double clip_limit_ = 0.0;  // |u| and |v| up to which it knows the scene
@@ -87,12 +89,12 @@ private:
 class ViewPlanes {
 public:
     ViewPlanes() = default;
-    ViewPlanes(const ViewFrame& view, const Box& bounds);
+    ViewPlanes(const ViewFrame& view, const SceneExtent& scene);
 
     const std::vector<ProjectionPlane>& planes() const { return planes_; }
 
     // The only plane that might take the ray; -1: none.
-    int choose(const PreparedRay& ray) const;
+    int choose(const ExactRay& ray) const;
 
 private:
     std::vector<ProjectionPlane> planes_;

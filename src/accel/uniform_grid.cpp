@@ -14,6 +14,8 @@ constexpr std::uint32_t primitives_per_block = 1u << 14;
 
 // Cells are numbered, and references counted, in 32 bits.
 constexpr double most_cells = 0x1p30;
+// Along an axis: what the walk's proof and the overlap test have room for.
+constexpr double most_cells_along_axis = 0x1p24;
 // References beyond this many per primitive coarsen the grid: large primitives that overlap each other, for which
 // smaller cells gain little.
 constexpr std::uint64_t most_references_per_primitive = 24;
@@ -194,7 +196,7 @@ std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives
             if (!divided[static_cast<std::size_t>(axis)]) continue;
             // 2^-40: so that whole numbers come out whole.
             resolution[static_cast<std::size_t>(axis)] =
-                std::max(1u, static_cast<std::uint32_t>(relative[axis] * scale * (1.0 + 0x1p-40)));
+                static_cast<std::uint32_t>(std::clamp(relative[axis] * scale * (1.0 + 0x1p-40), 1.0, most_cells_along_axis));
         }
         return resolution;
     }
@@ -210,14 +212,11 @@ UniformGrid::UniformGrid(const BuildInput& input, double density) : TraversedAcc
     double cells = density * static_cast<double>(primitives.hittable_count());
     for (;;) {
         resolution_ = grid_resolution(size, cells, 1.0);
-        double narrowest = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const double count = resolution_[static_cast<std::size_t>(axis)];
             width_[axis] = size[axis] / count;
             cells_per_unit_[axis] = count > 1.0 ? count / size[axis] : 0.0;
-            if (count > 1.0) narrowest = std::min(narrowest, width_[axis]);
         }
-        largest_margin_ = narrowest / 8.0;
         Builder builder(input, {lower_, cells_per_unit_, resolution_});
         if (builder.find_pairs()) {
             builder.sort_pairs(offsets_, references_);

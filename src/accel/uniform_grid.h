@@ -12,15 +12,16 @@
 //   crossed exactly the planes with T <= t, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
 // - Primitives are listed in every cell that they come nearer to than half of overlap_slack cells
 //   (triangle_box_overlap.h). As long as that is more than the error, the primitive is in that cell's list: 2^-17 of
-//   a cell's width against 2^-50 * R. Rays from so far away that R exceeds 2^31 cells test all primitives: slower,
-//   never different (`largest_margin_`).
+//   a cell's width against 2^-50 * R. R is at most 8 sizes of the bounds, because rays from farther away are moved (ray/cell_ray.h), and
+//   there are at most 2^24 cells along an axis.
 // - The walk starts in a cell whose planes behind it have T below the ray's first possible hit, and ends when the
-//   next plane lies beyond the last possible one, both by the ray's margin. Both distances come from faces of the
-//   bounds and are accurate to the margin, see PreparedRay. So the moment lies between start and end.
+//   next plane lies beyond the last possible one, both by the ray's margin (ray/cell_ray.h). So the moment lies between start and end.
 #pragma once
 
 #include "accel/grid_statistics.h"
-#include "accel/visitors.h"
+#include "accel/traversed_accel.h"
+#include "geometry/triangle_block.h"
+#include "ray/cell_ray.h"
 
 #include <array>
 #include <cmath>
@@ -58,8 +59,8 @@ public:
     // Looks at every cell once or twice.
     GridStatistics statistics() const { return grid_statistics(resolution_, offsets_); }
 
-    template <class Visitor>
-    void traverse(const PreparedRay& ray, Visitor& visitor) const;
+    template <class Collector>
+    void traverse(const ExactRay& ray, Collector& collector) const;
 
 private:
     // One axis of a walk.
@@ -73,47 +74,42 @@ private:
         std::int64_t stride; // from cell to cell, in cell numbers
     };
 
-    template <class Visitor>
-    void traverse_all(Visitor& visitor) const {
-        for (std::uint32_t i = 0; i < primitives().count(); ++i) {
-            if (visitor.visit(i)) return;
-        }
-    }
-
     Vec3 lower_{0.0};
     Vec3 upper_{0.0};
     Vec3 cells_per_unit_{0.0}; // 0 along a flat axis
     Vec3 width_{0.0};          // of a cell
-    double largest_margin_ = 0.0;
     std::array<std::uint32_t, 3> resolution_{};
     std::vector<std::uint32_t> offsets_;
     std::vector<std::uint32_t> references_;
 };
 
-template <class Visitor>
-void UniformGrid::traverse(const PreparedRay& ray, Visitor& visitor) const {
+template <class Collector>
+void UniformGrid::traverse(const ExactRay& exact_ray, Collector& collector) const {
     if (offsets_.empty()) return;
-    if (!(ray.margin <= largest_margin_)) return traverse_all(visitor);
+    const CellRay ray(exact_ray, primitives().bounds(), primitives().largest_extent());
+    if (!ray.is_known()) return test_all_primitives(exact_ray, collector);
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
     // A component so small moves the ray by less than 2^-60 of the scene's distance: nothing, against the slack of
     // the lists.
     constexpr double still = 0x1p-60;
 
-    double near = ray.tmin;
-    double far = ray.tmax;
+    double near = ray.first;
+    double far = ray.last;
     for (int axis = 0; axis < 3; ++axis) {
         if (std::fabs(ray.direction[axis]) <= still) {
-            if (ray.origin[axis] < lower_[axis] - ray.margin || ray.origin[axis] > upper_[axis] + ray.margin) return;
+            // Moved by less than that, and rounded when the ray was.
+            const double slack = 0x1p-50 * max_component(magnitudes(ray.start - primitives().bounds().center())) +
+                                 0x1p-50 * max_component(primitives().bounds().size());
+            if (ray.start[axis] < lower_[axis] - slack || ray.start[axis] > upper_[axis] + slack) return;
             continue;
         }
-        const double a = (lower_[axis] - ray.origin[axis]) * ray.inverse[axis];
-        const double b = (upper_[axis] - ray.origin[axis]) * ray.inverse[axis];
-        near = std::max(near, std::min(a, b));
-        far = std::min(far, std::max(a, b));
+        const Interval slab = ray.slab(axis, lower_[axis], upper_[axis]);
+        near = std::max(near, slab.near);
+        far = std::min(far, slab.far);
     }
-    if (near > far + ray.margin) return;
-    const double start = near - ray.margin;
+    if (near > far) return;
+    const double start = near;
 
     std::array<Course, 3> courses;
     std::int64_t cell = 0;
@@ -127,10 +123,10 @@ void UniformGrid::traverse(const PreparedRay& ray, Visitor& visitor) const {
             const double highest = count - 1.0;
             const bool moves = std::fabs(d) > still;
             const double position =
-                ((ray.origin[axis] - lower_[axis]) + (moves ? start * d : 0.0)) * cells_per_unit_[axis];
+                ((ray.start[axis] - lower_[axis]) + (moves ? start * d : 0.0)) * cells_per_unit_[axis];
             double at = std::floor(std::min(std::max(position, 0.0), highest));
             if (moves) {
-                course.a = (lower_[axis] - ray.origin[axis]) * ray.inverse[axis];
+                course.a = (lower_[axis] - ray.start[axis]) * ray.inverse[axis];
                 course.b = width_[axis] * ray.inverse[axis];
                 // The rounded position may be a plane too far ahead.
                 if (d > 0.0) {
@@ -160,18 +156,28 @@ void UniformGrid::traverse(const PreparedRay& ray, Visitor& visitor) const {
     std::array<std::uint32_t, 8> tested;
     tested.fill(PrimitiveHit::no_primitive);
 
+    std::uint32_t untested[triangle_block_size];
+    double limit = collector.limit();
     for (;;) {
         const std::uint32_t end = offsets_[static_cast<std::size_t>(cell) + 1];
-        for (std::uint32_t i = offsets_[static_cast<std::size_t>(cell)]; i < end; ++i) {
-            const std::uint32_t primitive = references_[i];
-            if (tested[primitive % tested.size()] == primitive) continue;
-            tested[primitive % tested.size()] = primitive;
-            if (visitor.visit(primitive)) return;
+        for (std::uint32_t i = offsets_[static_cast<std::size_t>(cell)]; i < end;) {
+            std::uint32_t n = 0;
+            for (; i < end && n < triangle_block_size; ++i) {
+                const std::uint32_t primitive = references_[i];
+                if (tested[primitive % tested.size()] == primitive) continue;
+                tested[primitive % tested.size()] = primitive;
+                untested[n++] = primitive;
+            }
+            if (n > 0 && test_primitives(primitives(), exact_ray, untested, n, collector)) return;
         }
         Course& course = courses[0].next <= courses[1].next
                              ? (courses[0].next <= courses[2].next ? courses[0] : courses[2])
                              : (courses[1].next <= courses[2].next ? courses[1] : courses[2]);
-        if (course.next > std::min(far, visitor.limit()) + ray.margin) return; // far is finite: the walk ends
+        if (collector.limit() < limit) {
+            limit = collector.limit();
+            far = std::min(far, ray.upper_end(limit));
+        }
+        if (course.next > far) return; // which is finite: the walk ends
         cell += course.stride;
         course.plane += course.step;
         course.next = course.plane == course.last ? infinity : course.a + course.plane * course.b;

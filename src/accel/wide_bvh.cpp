@@ -64,8 +64,8 @@ public:
 
     WideBvh run() {
         if (tree_.empty()) return std::move(bvh_);
-        bvh_.frame = SceneFrame(input_.primitives.bounds());
-        bvh_.words = make_words(tree_.references.size());
+        bvh_.frame = tree_.frame;
+        make_blocks(bvh_, input_.primitives, tree_.references.size());
 
         top_.emplace_back();
         LeafWriter leaves(bvh_, input_.primitives);
@@ -76,12 +76,12 @@ public:
             job.nodes.emplace_back();
             LeafWriter leaves_of_job(bvh_, input_.primitives);
             make_node(job.nodes, 0, job.root, leaves_of_job);
+            fit_inner(job.nodes.data(), job.nodes.size());
             const double part =
                 static_cast<double>(done_ += job.root.count) / static_cast<double>(tree_.references.size());
             input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
         });
         assemble();
-        bvh_.exact = exact_;
         bvh_.repeats = tree_.references.size() > input_.primitives.hittable_count();
         bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
@@ -98,7 +98,7 @@ private:
 
     void make_top(std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
-        top_[index] = boxes_of(children);
+        top_[index] = empty_node();
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             const Subtree& child = children[i];
             if (is_leaf(child)) {
@@ -108,7 +108,7 @@ private:
             } else {
                 const auto next = static_cast<std::uint32_t>(top_.size());
                 top_.emplace_back();
-                top_[index].child[i] = WideReference::node(next);
+                top_[index].child[i] = NodeRef::node(next);
                 make_top(next, child, leaves);
             }
         }
@@ -117,18 +117,18 @@ private:
     // Siblings lie side by side.
     void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
-        nodes[index] = boxes_of(children);
+        nodes[index] = empty_node();
         auto next = static_cast<std::uint32_t>(nodes.size());
         for (std::uint32_t i = 0; i < children.size(); ++i) {
             if (is_leaf(children[i])) {
                 set_leaf(nodes[index], i, children[i], leaves);
             } else {
-                nodes[index].child[i] = WideReference::node(next++);
+                nodes[index].child[i] = NodeRef::node(next++);
             }
         }
         nodes.resize(next);
         for (std::uint32_t i = 0; i < children.size(); ++i) {
-            const WideReference child = nodes[index].child[i];
+            const NodeRef child = nodes[index].child[i];
             if (!child.is_leaf()) make_node(nodes, child.index(), children[i], leaves);
         }
     }
@@ -164,23 +164,35 @@ private:
         return children;
     }
 
-    WideNode boxes_of(const Children& children) const {
+    static WideNode empty_node() {
         WideNode node{};
-        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-            set_absent(node, i);
-            if (i >= children.size()) continue;
-            // The tree's boxes are relative to the frame's center already.
-            const auto& planes = children[i].node->planes;
-            const Vec3f lower(planes[0][0], planes[0][1], planes[0][2]);
-            const Vec3f upper(planes[1][0], planes[1][1], planes[1][2]);
-            set_box(node, i, bvh_.frame.scale() * Vec3(lower), bvh_.frame.scale() * Vec3(upper));
-        }
+        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) set_empty(node, i);
         return node;
     }
 
+    // The boxes of inner nodes, around those of their children, which lie behind them.
+    static void fit_inner(WideNode* nodes, std::size_t count) {
+        for (std::size_t n = count; n-- > 0;) {
+            for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
+                const NodeRef child = nodes[n].child[i];
+                if (is_inner_child(nodes[n], i)) set_box_around(nodes[n], i, nodes[child.index()]);
+            }
+        }
+    }
+    // Before it has a box, too: the root is nobody's child.
+    static bool is_inner_child(const WideNode& node, std::uint32_t i) {
+        return !node.child[i].is_leaf() && node.child[i].index() != 0;
+    }
+
     void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf, LeafWriter& leaves) {
-        node.child[i] = WideReference::leaf(leaf.first, leaf.count);
-        if (!leaves.write(leaf.first, &tree_.references[leaf.first], leaf.count).exact) exact_ = false;
+        const LeafWriter::Leaf written = leaves.write(leaf.first, &tree_.references[leaf.first], leaf.count);
+        node.child[i] = written.reference;
+        // The tree's boxes are relative to the frame's center already.
+        const auto& planes = leaf.node->planes;
+        const Vec3f lower(planes[0][0], planes[0][1], planes[0][2]);
+        const Vec3f upper(planes[1][0], planes[1][1], planes[1][2]);
+        const double scale = bvh_.frame.scale();
+        set_leaf_box(node, i, scale * Vec3(lower), scale * Vec3(upper), written.extent());
     }
 
     void assemble() {
@@ -189,7 +201,7 @@ private:
         std::size_t total = top_.size();
         for (const Job& job : jobs_) {
             offsets.push_back(static_cast<std::uint32_t>(total));
-            top_[job.parent].child[job.child] = WideReference::node(offsets.back());
+            top_[job.parent].child[job.child] = NodeRef::node(offsets.back());
             total += job.nodes.size();
         }
         bvh_.nodes = PageArray<WideNode>(total);
@@ -198,12 +210,13 @@ private:
             WideNode* const nodes = bvh_.nodes.data() + offsets[i];
             std::copy(jobs_[i].nodes.begin(), jobs_[i].nodes.end(), nodes);
             for (std::size_t k = 0; k < jobs_[i].nodes.size(); ++k) {
-                for (WideReference& child : nodes[k].child) {
-                    if (!child.is_leaf()) child = WideReference::node(child.index() + offsets[i]);
+                for (NodeRef& child : nodes[k].child) {
+                    if (!child.is_leaf()) child = NodeRef::node(child.index() + offsets[i]);
                 }
             }
             jobs_[i].nodes = {};
         });
+        fit_inner(bvh_.nodes.data(), top_.size());
     }
 
     const BvhTree& tree_;
@@ -213,7 +226,6 @@ private:
     WideBvh bvh_;
     std::vector<WideNode> top_;
     std::vector<Job> jobs_;
-    std::atomic<bool> exact_{true};
     std::atomic<std::uint64_t> done_{0};
 };
 
@@ -239,9 +251,9 @@ double tree_cost(const WideBvh& bvh, const Parallel& parallel) {
         for (std::size_t n = k * nodes_per_sum; n < end; ++n) {
             const WideNode& node = bvh.nodes[n];
             for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-                if (is_absent(node, i)) continue;
-                const WideReference child = node.child[i];
-                const std::uint32_t blocks = (child.triangles() + (block_size - 1)) / block_size;
+                if (is_empty_child(node, i)) continue;
+                const NodeRef child = node.child[i];
+                const std::uint32_t blocks = (child.triangles() + (triangle_block_size - 1)) / triangle_block_size;
                 sum += half_area(node, i) * (child.is_leaf() ? blocks : 1.0);
             }
         }

@@ -2,27 +2,16 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "accel/collectors.h"
 #include "accel/wide_bvh.h"
-#include "base/ray.h"
-#include "geometry/primitives.h"
-
-#include <vector>
 
 namespace raywise {
 
-struct WideBvhScene {
-    const WideBvh& bvh;
-    const Primitives& primitives; // that it was built from
-};
-
-// As the functions of Accel.
-SurfaceHit closest_hit(const WideBvhScene& scene, const PreparedRay& ray);
-SurfaceHit closest_hit(const WideBvhScene& scene, const UnpreparedRay& ray);
-void closest_hits(const WideBvhScene& scene, const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch);
-bool any_hit(const WideBvhScene& scene, const PreparedRay& ray);
-bool any_hit(const WideBvhScene& scene, const UnpreparedRay& ray);
-void any_hits(const WideBvhScene& scene, const UnpreparedRays& rays, bool* found, Scratch& scratch);
-// Appends every hit; one on a primitive with several references once for each.
-void all_hits(const WideBvhScene& scene, const PreparedRay& ray, std::vector<PrimitiveHit>& hits);
+// As the functions of Accel. One on a primitive with several references is collected once for each.
+void trace_closest(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector);
+void trace_any(const WideBvh& bvh, const Ray& ray, AnyCollector& collector);
+void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector);
+void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch);
+void trace_any_many(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch);
 
 } // namespace raywise

@@ -1,5 +1,6 @@
 #include "accel/wide_bvh_refit.h"
 
+#include "accel/dense_region.h"
 #include "accel/wide_bvh_write.h"
 
 #include <algorithm>
@@ -23,9 +24,9 @@ public:
           is_fit_(old.nodes.size()) {}
 
     WideBvh run() {
-        bvh_.frame = SceneFrame(primitives_.bounds());
+        bvh_.frame = scene_frame(primitives_);
         bvh_.nodes = PageArray<WideNode>(old_.nodes.size());
-        bvh_.words = make_words((old_.words.size() - block_size) / words_per_triangle);
+        make_blocks(bvh_, primitives_, old_.triangle_count());
         const std::size_t tasks = (old_.nodes.size() + nodes_per_task - 1) / nodes_per_task;
         input_.parallel.for_each(tasks, [&](std::uint64_t task) {
             fit_task(task * nodes_per_task, std::min(old_.nodes.size(), (task + 1) * nodes_per_task));
@@ -36,7 +37,6 @@ public:
         for (std::size_t n = old_.nodes.size(); n-- > 0;) {
             if (is_fit_[n] == 0) is_fit_[n] = fit_inner_children(n, old_.nodes.size()) ? 1 : 0;
         }
-        bvh_.exact = exact_;
         bvh_.repeats = old_.repeats;
         bvh_.built_cost = old_.built_cost;
         return std::move(bvh_);
@@ -47,27 +47,25 @@ private:
     void fit_task(std::size_t begin, std::size_t end) {
         LeafWriter leaves(bvh_, primitives_);
         std::vector<std::uint32_t> leaf;
-        bool exact = true;
         for (std::size_t n = end; n-- > begin;) {
             const WideNode& old = old_.nodes[n];
             WideNode& node = bvh_.nodes[n];
             for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
                 node.child[i] = old.child[i];
-                set_absent(node, i);
-                if (!is_absent(old, i) && old.child[i].is_leaf())
-                    exact = fit_leaf(node, i, old.child[i], leaf, leaves) && exact;
+                set_empty(node, i);
+                if (!is_empty_child(old, i) && old.child[i].is_leaf())
+                    fit_leaf(node, i, old.child[i], leaf, leaves);
             }
             is_fit_[n] = fit_inner_children(n, end) ? 1 : 0;
         }
-        if (!exact) exact_ = false;
     }
 
     // Returns false when one of them is not below `end` or not fit itself.
     bool fit_inner_children(std::size_t n, std::size_t end) {
         bool complete = true;
         for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-            const WideReference child = old_.nodes[n].child[i];
-            if (is_absent(old_.nodes[n], i) || child.is_leaf()) continue;
+            const NodeRef child = old_.nodes[n].child[i];
+            if (is_empty_child(old_.nodes[n], i) || child.is_leaf()) continue;
             if (child.index() < end && is_fit_[child.index()] != 0) {
                 set_box_around(bvh_.nodes[n], i, bvh_.nodes[child.index()]);
             } else {
@@ -77,30 +75,32 @@ private:
         return complete;
     }
 
-    // Returns WideBvh::exact for this leaf.
-    bool fit_leaf(WideNode& node, std::uint32_t i, WideReference old, std::vector<std::uint32_t>& leaf,
-                  LeafWriter& leaves) {
+    void fit_leaf(WideNode& node, std::uint32_t i, NodeRef old, std::vector<std::uint32_t>& leaf, LeafWriter& leaves) {
         read_leaf(old, leaf);
         const auto count = static_cast<std::uint32_t>(leaf.size());
-        BlockWord* const words = bvh_.words.data() + words_per_triangle * old.index();
-        std::fill(words + words_per_triangle * count, words + words_per_triangle * old.triangles(), BlockWord{0.0f});
-        node.child[i] = count == 0 ? WideReference::node(0) : WideReference::leaf(old.index(), count);
-        if (count == 0) return true;
-        const WrittenLeaf written = leaves.write(old.index(), leaf.data(), count);
-        set_box(node, i, written.box.lower, written.box.upper);
-        return written.exact;
+        const std::size_t size = bvh_.bytes_per_triangle();
+        std::byte* const blocks = bvh_.blocks.data() + size * old.index();
+        std::fill(blocks + size * count, blocks + size * old.triangles(), std::byte{});
+        node.child[i] = NodeRef::node(0);
+        if (count == 0) return;
+        const LeafWriter::Leaf written = leaves.write(old.index(), leaf.data(), count);
+        node.child[i] = written.reference;
+        set_leaf_box(node, i, written.lower, written.upper, written.extent());
     }
 
     // The primitives of a leaf of the other tree that can be hit now.
-    void read_leaf(WideReference leaf, std::vector<std::uint32_t>& primitives) const {
+    void read_leaf(NodeRef leaf, std::vector<std::uint32_t>& primitives) const {
         primitives.clear();
-        for (std::uint32_t begin = 0; begin < leaf.triangles(); begin += block_size) {
-            const std::uint32_t n = std::min(block_size, leaf.triangles() - begin);
-            const BlockWord* const block = old_.block(std::size_t{leaf.index()} + begin);
-            for (std::uint32_t i = 0; i < n; ++i) {
-                const std::uint32_t primitive = BlockTriangle{block, n, i}.primitive();
+        const auto read = [&](const auto& block) {
+            for (std::uint32_t i = 0; i < block.n; ++i) {
+                const std::uint32_t primitive = block.id(i);
                 if (all_hittable_ || primitives_.is_hittable(primitive)) primitives.push_back(primitive);
             }
+        };
+        if (old_.is_float64) {
+            for_each_block<double>(old_, leaf, read);
+        } else {
+            for_each_block<float>(old_, leaf, read);
         }
     }
 
@@ -110,7 +110,6 @@ private:
     const BuildInput& input_;
     WideBvh bvh_;
     std::vector<std::uint8_t> is_fit_; // a byte each: threads write to neighbours
-    std::atomic<bool> exact_{true};
     std::atomic<std::uint64_t> done_{0};
 };
 
@@ -124,12 +123,11 @@ bool could_all_be_hit(const Primitives& primitives, const Primitives& before) {
 
 } // namespace
 
-std::optional<WideBvh> refit(const WideBvhScene& other, const BuildInput& input) {
+std::optional<WideBvh> refit(const WideBvh& other, const Primitives& others, const BuildInput& input) {
     const Primitives& primitives = input.primitives;
-    if (primitives.count() != other.primitives.count() || !could_all_be_hit(primitives, other.primitives))
-        return std::nullopt;
+    if (primitives.count() != others.count() || !could_all_be_hit(primitives, others)) return std::nullopt;
     if (primitives.hittable_count() == 0) return WideBvh{};
-    return Refitter(other.bvh, input).run();
+    return Refitter(other, input).run();
 }
 
 } // namespace raywise

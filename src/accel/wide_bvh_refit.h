@@ -3,19 +3,18 @@
 #pragma once
 
 #include "accel/wide_bvh.h"
-#include "accel/wide_bvh_kernels.h"
 
 #include <optional>
 
 namespace raywise {
 
-// The tree of another scene around the primitives of this one: the same numbers at new places. Boxes that were cut at a split
+// The tree of another scene, of `others`, around the primitives of this one: the same numbers at new places. Boxes that were cut at a split
 // (bvh_spatial_splits.h) become those of whole primitives. What cannot be hit any more is left out. Nothing when a primitive can be
 // hit that could not be before, which therefore is not in the tree, or when there are not as many: then only building helps.
 //
 // Of the other scene's primitives only their number is read and which of them can be hit; their vertices may be gone.
 //
 // Boxes of what has moved apart overlap: tree_cost() of the result, compared with its built_cost, tells how much longer rays take.
-std::optional<WideBvh> refit(const WideBvhScene& other, const BuildInput& input);
+std::optional<WideBvh> refit(const WideBvh& other, const Primitives& others, const BuildInput& input);
 
 } // namespace raywise

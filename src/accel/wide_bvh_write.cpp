@@ -8,82 +8,81 @@ namespace raywise {
 namespace {
 
 // Calls write(begin, n, block) for each block of a leaf.
-template <class Write>
-void for_each_block(BlockWord* words, std::uint32_t first, std::uint32_t count, const Write& write) {
-    for (std::uint32_t begin = 0; begin < count; begin += block_size) {
-        const std::uint32_t n = std::min(block_size, count - begin);
-        write(begin, n, words + words_per_triangle * (std::size_t{first} + begin));
+template <class T, class Write>
+void for_each_new_block(std::byte* blocks, std::uint32_t first, std::uint32_t count, const Write& write) {
+    for (std::uint32_t begin = 0; begin < count; begin += triangle_block_size) {
+        write(begin, std::min(triangle_block_size, count - begin),
+              blocks + TriangleBlock<T>::bytes_per_triangle * (std::size_t{first} + begin));
     }
-}
-
-Box box_of(Lanes lower, Lanes upper) {
-    return {Vec3(Vec3f(lower[0], lower[1], lower[2])), Vec3(Vec3f(upper[0], upper[1], upper[2]))};
 }
 
 } // namespace
 
-LeafWriter::LeafWriter(WideBvh& bvh, const Primitives& primitives)
-    : words_(bvh.words.data()), primitives_(primitives), frame_(bvh.frame) {
-    const double scale = frame_.scale(); // a power of two
-    if (scale >= 0x1p-126 && scale <= 0x1p126 && frame_.from_frame(Vec3(0.0)) == Vec3(0.0)) {
-        scale_ = static_cast<float>(scale);
-        inverse_scale_ = 1.0f / scale_;
-    }
+void make_blocks(WideBvh& bvh, const Primitives& primitives, std::size_t triangles) {
+    const auto& meshes = primitives.meshes();
+    bvh.is_float64 = !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
+    const std::size_t bytes = bvh.bytes_per_triangle() * triangles;
+    bvh.blocks = PageArray<std::byte>(bytes + triangle_block_padding);
+    std::fill_n(bvh.blocks.data() + bytes, triangle_block_padding, std::byte{});
 }
 
-WrittenLeaf LeafWriter::write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count) {
-    WrittenLeaf written{true, {}};
-    if (scale_ != 0.0f && write_floats(first, leaf, count, written)) return written;
+LeafWriter::LeafWriter(WideBvh& bvh, const Primitives& primitives) : bvh_(bvh), primitives_(primitives) {}
 
-    for_each_block(words_, first, count, [&](std::uint32_t begin, std::uint32_t n, BlockWord* block) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t primitive = leaf[begin + i];
-            const TriangleMesh& mesh = mesh_of(primitive);
-            BlockWord* word = block + i;
-            for (const Vec3& corner : mesh.corners(primitive - mesh_first_)) {
-                const Vec3 p = frame_.to_frame(corner);
-                written.box.extend(p);
-                const Vec3f rounded(p);
-                if (frame_.from_frame(Vec3(rounded)) != corner) written.exact = false;
-                for (int axis = 0; axis < 3; ++axis, word += n) word->coordinate = rounded[axis];
-            }
-            word->primitive = primitive;
-        }
-    });
+LeafWriter::Leaf LeafWriter::write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count) {
+    const Box box = bvh_.is_float64 ? write_float64(first, leaf, count) : write_float32(first, leaf, count);
+    const Box relative = bvh_.frame.relative(box);
+    const double distance = max_component(larger(magnitudes(relative.lower), magnitudes(relative.upper)));
+    // Rounded as the builders' boxes are.
+    const double scale = bvh_.frame.scale();
+    Leaf written{NodeRef::leaf(first, count, distance), {}, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        written.lower[axis] = static_cast<double>(round_down(scale * relative.lower[axis]));
+        written.upper[axis] = static_cast<double>(round_up(scale * relative.upper[axis]));
+    }
     return written;
 }
 
-// The same in float32, a fourth of the work. Returns false when that is not enough: where a corner is not float32, or one cannot be had
-// back, because it would be below the normal numbers: then the box, of rounded corners, might not hold it.
-bool LeafWriter::write_floats(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count,
-                              WrittenLeaf& written) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    Lanes lower = fill_lanes(infinity);
-    Lanes upper = fill_lanes(-infinity);
-    IntLanes same{-1, -1, -1, -1};
-    for_each_block(words_, first, count, [&](std::uint32_t begin, std::uint32_t n, BlockWord* block) {
+Box LeafWriter::write_float64(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count) {
+    Box box;
+    for_each_new_block<double>(bvh_.blocks.data(), first, count,
+                               [&](std::uint32_t begin, std::uint32_t n, std::byte* block) {
         for (std::uint32_t i = 0; i < n; ++i) {
             const std::uint32_t primitive = leaf[begin + i];
             const TriangleMesh& mesh = mesh_of(primitive);
-            if (!mesh.is_float32()) {
-                same = IntLanes{};
-                return;
+            const Corners corners = mesh.corners(primitive - mesh_first_);
+            double numbers[3][3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.extend(corners[k]);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    numbers[k][axis] = corners[k][static_cast<glm::length_t>(axis)];
             }
-            BlockWord* word = block + i;
-            for (const Vec3f& corner : mesh.corners_float32(primitive - mesh_first_)) {
-                const Lanes p{corner.x, corner.y, corner.z, 0.0f};
-                const Lanes scaled = p * scale_;
-                same &= scaled * inverse_scale_ == p;
-                lower = min_lanes(lower, scaled);
-                upper = max_lanes(upper, scaled);
-                for (int axis = 0; axis < 3; ++axis, word += n) word->coordinate = scaled[axis];
-            }
-            word->primitive = primitive;
+            write_block_triangle(block, n, i, numbers, primitive);
         }
     });
-    if ((same[0] & same[1] & same[2]) == 0) return false;
-    written.box = box_of(lower, upper);
-    return true;
+    return box;
+}
+
+Box LeafWriter::write_float32(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Lanes lower = fill_lanes(infinity);
+    Lanes upper = fill_lanes(-infinity);
+    for_each_new_block<float>(bvh_.blocks.data(), first, count,
+                              [&](std::uint32_t begin, std::uint32_t n, std::byte* block) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t primitive = leaf[begin + i];
+            const TriangleMesh& mesh = mesh_of(primitive);
+            const CornersF corners = mesh.corners_float32(primitive - mesh_first_);
+            float numbers[3][3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Lanes p{corners[k].x, corners[k].y, corners[k].z, 0.0f};
+                lower = min_lanes(lower, p);
+                upper = max_lanes(upper, p);
+                for (std::size_t axis = 0; axis < 3; ++axis) numbers[k][axis] = p[axis];
+            }
+            write_block_triangle(block, n, i, numbers, primitive);
+        }
+    });
+    return {Vec3(Vec3f(lower[0], lower[1], lower[2])), Vec3(Vec3f(upper[0], upper[1], upper[2]))};
 }
 
 const TriangleMesh& LeafWriter::mesh_of(std::uint32_t primitive) {

@@ -10,22 +10,24 @@
 
 namespace raywise {
 
-inline void set_absent(WideNode& node, std::uint32_t i) {
+inline void set_empty(WideNode& node, std::uint32_t i) {
     for (auto& planes : node.planes) {
-        planes[0][i] = absent_plane;
-        planes[1][i] = -absent_plane;
+        planes[0][i] = empty_plane;
+        planes[1][i] = -empty_plane;
     }
 }
 
-// lower, upper: in the coordinates of the frame.
-inline void set_box(WideNode& node, std::uint32_t i, const Vec3& lower, const Vec3& upper) {
+// The box of a leaf. lower, upper: in the coordinates of the frame. extent: of its triangles, of which it may hold but parts. See
+// ray/traversal_ray.h for how much wider the box is made.
+inline void set_leaf_box(WideNode& node, std::uint32_t i, const Vec3& lower, const Vec3& upper, double extent) {
+    const double slack = 0x1p-26 * extent + 0x1p-112;
     for (int axis = 0; axis < 3; ++axis) {
-        node.planes[axis][0][i] = round_down(lower[axis]);
-        node.planes[axis][1][i] = round_up(upper[axis]);
+        node.planes[axis][0][i] = round_down(lower[axis] - slack);
+        node.planes[axis][1][i] = round_up(upper[axis] + slack);
     }
 }
 
-// The box around all children of another node. It is absent when all of those are.
+// The box around all children of another node. It is empty when all of those are.
 inline void set_box_around(WideNode& node, std::uint32_t i, const WideNode& inner) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto& planes = inner.planes[axis];
@@ -34,38 +36,31 @@ inline void set_box_around(WideNode& node, std::uint32_t i, const WideNode& inne
     }
 }
 
-// Room for the blocks of so many triangles.
-inline PageArray<BlockWord> make_words(std::size_t triangles) {
-    const std::size_t words = words_per_triangle * triangles;
-    PageArray<BlockWord> result(words + block_size);
-    std::fill_n(result.data() + words, block_size, BlockWord{0.0f});
-    return result;
-}
+// Makes room for the blocks of so many triangles, of the type that the meshes ask for.
+void make_blocks(WideBvh& bvh, const Primitives& primitives, std::size_t triangles);
 
-// What is found out about a leaf while it is written.
-struct WrittenLeaf {
-    bool exact; // whether frame.from_frame gives every corner back
-    Box box;    // in the coordinates of the frame
-};
-
-// Writes the leaves of a tree that has its frame and room for its words. Each thread needs one of its own.
+// Writes the leaves of a tree that has its frame and its blocks. Each thread needs one of its own.
 class LeafWriter {
 public:
     LeafWriter(WideBvh& bvh, const Primitives& primitives);
 
+    struct Leaf {
+        NodeRef reference;
+        Vec3 lower; // of its box, in the coordinates of the frame
+        Vec3 upper;
+
+        double extent() const { return max_component(upper - lower); }
+    };
     // A leaf of `count` primitives that begins at triangle `first`.
-    WrittenLeaf write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
+    Leaf write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
 
 private:
-    bool write_floats(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count, WrittenLeaf& written);
+    Box write_float32(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
+    Box write_float64(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
     const TriangleMesh& mesh_of(std::uint32_t primitive);
 
-    BlockWord* const words_;
+    WideBvh& bvh_;
     const Primitives& primitives_;
-    const SceneFrame frame_;
-    // The scale as float32, where that and its inverse are normal numbers and the frame does not move anything; else zero.
-    float scale_ = 0.0f;
-    float inverse_scale_ = 0.0f;
     // The mesh looked at last, and the numbers of its triangles: neighbours are of one mesh, mostly.
     const TriangleMesh* mesh_ = nullptr;
     std::uint32_t mesh_first_ = 0;

@@ -1,4 +1,4 @@
-// The walk itself. For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
+// The traversal itself. For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
 #if defined(RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
 #undef RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
@@ -6,15 +6,17 @@
 #define RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
 #endif
 
-#include "accel/frame_ray.h"
-#include "accel/plain_ray.h"
-#include "accel/triangle_filter-inl.h"
-#include "accel/wide_bvh_kernels.h"
+#include "accel/collectors.h"
+#include "accel/wide_bvh.h"
+#include "geometry/triangle_block-inl.h"
+#include "ray/traversal_ray.h"
 
 #include <hwy/highway.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <utility>
 
 HWY_BEFORE_NAMESPACE();
@@ -22,225 +24,195 @@ namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Eight lanes, in as many registers as that takes.
-using Lanes = hn::CappedTag<float, wide_bvh_width>;
-using Vector = hn::VFromD<Lanes>;
-inline constexpr std::size_t lane_count = hn::MaxLanes(Lanes());
+using BoxLanes = hn::CappedTag<float, wide_bvh_width>;
+using BoxVector = hn::VFromD<BoxLanes>;
+inline constexpr std::size_t box_lanes = hn::MaxLanes(BoxLanes());
 
-template <class Mask>
-HWY_INLINE std::uint32_t bits_of(Mask mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Lanes(), mask, bytes);
-    return bytes[0];
-}
-
-HWY_INLINE std::uint32_t lowest_bit(std::uint32_t bits) { return static_cast<std::uint32_t>(__builtin_ctz(bits)); }
-
-// See PlainRay.
+// Whether a ray that enters at `entry` and leaves at `exit` may meet a box. See ray/traversal_ray.h.
 template <class D, class V = hn::VFromD<D>>
-HWY_INLINE V plain_exit_offset(D d, V bound, V inverse, V entry_offset) {
-    const V apart =
-        hn::MulAdd(hn::Set(d, PlainRay::exit_per_inverse), hn::Abs(inverse), hn::Set(d, PlainRay::exit_constant));
-    return hn::NegMulAdd(bound, apart, entry_offset);
+HWY_INLINE auto may_meet(D d, V entry, V exit) {
+    return hn::Le(entry, hn::MulAdd(hn::Abs(exit), hn::Set(d, TraversalRay::box_slack), exit));
 }
 
-// The boxes of a node against a ray.
+// The boxes of a node against a ray: the slab test (Kay and Kajiya 1986).
 class BoxTest {
 public:
-    HWY_INLINE explicit BoxTest(const FrameRay& ray)
-        : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.backwards) {
-        for (std::size_t axis = 0; axis < 3; ++axis) exit_offset_[axis] = hn::Set(Lanes(), ray.exit_offset[axis]);
-    }
-    HWY_INLINE explicit BoxTest(const PlainRay& ray) : BoxTest(ray.inverse, ray.entry_offset, ray.first, ray.octant) {
-        const Vector bound = hn::Set(Lanes(), ray.bound);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            exit_offset_[axis] = plain_exit_offset(Lanes(), bound, inverse_[axis], entry_offset_[axis]);
+    HWY_INLINE explicit BoxTest(const TraversalRay& ray) : first_(hn::Set(BoxLanes(), ray.first)) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            inverse_[axis] = hn::Set(BoxLanes(), ray.inverse[axis]);
+            entry_offset_[axis] = hn::Set(BoxLanes(), ray.entry_offset[axis]);
+            exit_offset_[axis] = hn::Set(BoxLanes(), ray.exit_offset[axis]);
+            entry_line_[axis] = (2 * axis + ((ray.octant >> axis) & 1u)) * line;
+        }
     }
 
     // Which children may hold a hit up to `last`, as bits; where the ray enters each goes to `entries`.
     HWY_INLINE std::uint32_t operator()(const WideNode& node, float last, float* entries) const {
-        const Lanes d;
+        const BoxLanes d;
         const char* const planes = reinterpret_cast<const char*>(node.planes);
         std::uint32_t bits = 0;
-        for (std::size_t lane = 0; lane < wide_bvh_width; lane += lane_count) {
-            Vector entry = first_;
-            Vector exit = hn::Set(d, last);
+        for (std::size_t lane = 0; lane < wide_bvh_width; lane += box_lanes) {
+            BoxVector entry = first_;
+            BoxVector exit = hn::Set(d, last);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Vector entry_plane = load(planes + entry_line_[axis], lane);
-                const Vector exit_plane = load(planes + (entry_line_[axis] ^ line), lane);
+                const BoxVector entry_plane = load(planes + entry_line_[axis], lane);
+                const BoxVector exit_plane = load(planes + (entry_line_[axis] ^ line), lane);
                 entry = hn::Max(entry, hn::MulSub(entry_plane, inverse_[axis], entry_offset_[axis]));
                 exit = hn::Min(exit, hn::MulSub(exit_plane, inverse_[axis], exit_offset_[axis]));
             }
             hn::Store(entry, d, entries + lane);
-            bits |= bits_of(hn::Le(entry, exit)) << lane;
+            std::uint8_t bytes[8] = {};
+            hn::StoreMaskBits(d, may_meet(d, entry, exit), bytes);
+            bits |= std::uint32_t{bytes[0]} << lane;
         }
         return bits;
     }
 
 private:
-    HWY_INLINE BoxTest(const float* inverse, const float* entry_offset, float first, std::uint32_t octant)
-        : first_(hn::Set(Lanes(), first)) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            inverse_[axis] = hn::Set(Lanes(), inverse[axis]);
-            entry_offset_[axis] = hn::Set(Lanes(), entry_offset[axis]);
-            entry_line_[axis] = (2 * axis + ((octant >> axis) & 1u)) * line;
-        }
-    }
-
     static constexpr std::size_t line = wide_bvh_width * sizeof(float);
 
-    static HWY_INLINE Vector load(const char* planes, std::size_t lane) {
-        return hn::Load(Lanes(), reinterpret_cast<const float*>(planes) + lane);
+    static HWY_INLINE BoxVector load(const char* planes, std::size_t lane) {
+        return hn::Load(BoxLanes(), reinterpret_cast<const float*>(planes) + lane);
     }
 
-    Vector inverse_[3];
-    Vector entry_offset_[3];
-    Vector exit_offset_[3];
-    Vector first_;
+    BoxVector inverse_[3];
+    BoxVector entry_offset_[3];
+    BoxVector exit_offset_[3];
+    BoxVector first_;
     std::size_t entry_line_[3]; // in bytes
 };
 
-// Of the triangles of a block: which may be hit, which are for certain, and about where (Findings).
-struct BlockFindings {
-    std::uint32_t possible; // bits
-    std::uint32_t certain;
-    alignas(64) float lower[wide_bvh_width]; // of those that may be hit
-    alignas(64) float upper[wide_bvh_width];
-};
+HWY_INLINE std::uint32_t lowest_bit(std::uint32_t bits) { return static_cast<std::uint32_t>(__builtin_ctz(bits)); }
 
-// The triangles of a block against a ray.
-class BlockTest {
-public:
-    HWY_INLINE BlockTest(const TriangleRay& ray, float first, float margin)
-        : filter_(Lanes(), ray),
-          first_(hn::Set(Lanes(), first)),
-          margin_(hn::Set(Lanes(), margin)),
-          axes_{static_cast<std::size_t>(ray.x_axis), static_cast<std::size_t>(ray.y_axis),
-                static_cast<std::size_t>(ray.z_axis)} {}
+template <class T>
+HWY_INLINE void prefetch(const WideBvh& bvh, NodeRef reference) {
+    const std::size_t index = reference.index();
+    const char* const target =
+        reference.is_leaf() ? reinterpret_cast<const char*>(bvh.blocks.data()) + TriangleBlock<T>::bytes_per_triangle * index
+                            : reinterpret_cast<const char*>(bvh.nodes.data() + index);
+    for (std::size_t line = 0; line < sizeof(WideNode); line += 64) __builtin_prefetch(target + line);
+}
 
-    // Of n triangles, up to `last`.
-    HWY_INLINE void operator()(const BlockWord* block, std::uint32_t n, float last, BlockFindings& found) const {
-        const Lanes d;
-        found.possible = 0;
-        found.certain = 0;
-        for (std::uint32_t lane = 0; lane < n; lane += lane_count) {
-            const BlockWord* const lines = block + lane;
-            const auto a = corner(lines, n);
-            const auto b = corner(lines + 3 * n, n);
-            const auto c = corner(lines + 6 * n, n);
-            const auto edges = edges_of(d, filter_, a, b, c);
-            const std::uint32_t present = ((1u << (n - lane)) - 1u) & ((1u << lane_count) - 1u);
-            const std::uint32_t part = bits_of(may_hit(edges)) & present;
-            if (part == 0) continue;
-            const auto findings = find_within(d, filter_, edges, a, b, c, first_, hn::Set(d, last), margin_);
-            found.possible |= (bits_of(findings.possible) & part) << lane;
-            found.certain |= (bits_of(findings.certain) & part) << lane;
-            hn::Store(findings.lower, d, found.lower + lane);
-            hn::Store(findings.upper, d, found.upper + lane);
+// A ray on its way through a tree: what culls, and what decides, which is made when the first leaf is met. T: of the tree's triangles.
+template <class T, class Collector>
+struct TracedRay {
+    using Coordinate = T;
+
+    const WideBvh& bvh;
+    const Ray& ray;
+    TraversalRay& traversal;
+    const RayTime& time;
+    Collector& collector;
+    std::optional<ExactRay> exact{};
+
+    // Hands the hits with a leaf's triangles to the collector. Returns whether it wants no more. A function of its own, so that what a ray
+    // needs for triangles does not take registers from what it needs for boxes.
+    HWY_NOINLINE bool test_leaf(NodeRef leaf) {
+        if (!exact) exact.emplace(ray);
+        const BlockRay block_ray(*exact);
+        const double certain = certain_edge(leaf.distance() + time.origin_distance);
+        const double limit = collector.limit();
+        const std::uint32_t triangles = leaf.triangles();
+        const std::byte* data = bvh.blocks.data() + TriangleBlock<T>::bytes_per_triangle * std::size_t{leaf.index()};
+        for (std::uint32_t left = triangles; left > 0;) {
+            const std::uint32_t n = left < triangle_block_size ? left : triangle_block_size;
+            if (test_triangle_block(block_ray, TriangleBlock<T>{data, n}, certain, collector)) return true;
+            data += TriangleBlock<T>::bytes_per_triangle * n;
+            left -= n;
         }
+        if (collector.limit() < limit) traversal.last = time.last(collector.limit());
+        return false;
     }
-
-private:
-    HWY_INLINE ShearedCorners<Vector> corner(const BlockWord* lines, std::size_t n) const {
-        const Lanes d;
-        return shear(filter_, hn::LoadU(d, &lines[axes_[0] * n].coordinate),
-                     hn::LoadU(d, &lines[axes_[1] * n].coordinate), hn::LoadU(d, &lines[axes_[2] * n].coordinate));
-    }
-
-    FilterRay<Lanes> filter_;
-    Vector first_;
-    Vector margin_;
-    std::size_t axes_[3];
 };
 
 struct StackEntry {
-    WideReference reference;
+    NodeRef reference;
     float entry; // where the ray enters it
 };
 
-HWY_INLINE void prefetch(const WideBvh& bvh, WideReference reference) {
-    const void* const target = reference.is_leaf() ? static_cast<const void*>(bvh.block(reference.index()))
-                                                   : static_cast<const void*>(&bvh.nodes[reference.index()]);
-    for (std::size_t line = 0; line < sizeof(WideNode); line += 64)
-        __builtin_prefetch(static_cast<const char*>(target) + line);
+// Where a child is entered, and which it is, in one number that orders like the distance, as far as those are not negative.
+HWY_INLINE std::uint64_t child_key(const float* entries, std::uint32_t i) {
+    std::uint32_t bits;
+    std::memcpy(&bits, entries + i, sizeof bits);
+    return std::uint64_t{bits} << 32 | i;
+}
+HWY_INLINE void sort_pair(std::uint64_t& a, std::uint64_t& b) { // the larger first
+    const std::uint64_t larger_key = a > b ? a : b;
+    b = a > b ? b : a;
+    a = larger_key;
 }
 
-HWY_INLINE const TriangleRay& for_triangles(const FrameRay& ray) { return ray; }
-HWY_INLINE TriangleRay for_triangles(const PlainRay& ray) { return ray.for_triangles(); }
-
-// Calls sink.test for the triangles of a leaf that the ray may hit. Returns whether one of the calls did. A function of its own, so
-// that what a ray needs for triangles does not take registers from what it needs for boxes.
-template <class CullRay, class Sink>
-HWY_NOINLINE bool visit_leaf(const WideBvh& bvh, const CullRay& ray, WideReference leaf, Sink& sink) {
-    const BlockTest block_test(for_triangles(ray), ray.first_for_triangles(), ray.margin());
-    BlockFindings found;
-    const std::uint32_t triangles = leaf.triangles();
-    for (std::uint32_t begin = 0; begin < triangles; begin += block_size) {
-        const std::uint32_t n = triangles - begin < block_size ? triangles - begin : block_size;
-        const BlockWord* const block = bvh.block(std::size_t{leaf.index()} + begin);
-        block_test(block, n, sink.last(), found);
-        for (std::uint32_t bits = found.possible; bits != 0; bits &= bits - 1) {
-            const std::uint32_t i = lowest_bit(bits);
-            if (sink.test({block, n, i}, (found.certain >> i & 1u) != 0, found.lower[i], found.upper[i])) return true;
-        }
-    }
-    return false;
-}
-
-// Calls sink.test for what the ray may hit at or below `current` up to sink.last(), until it returns true. Returns whether it did.
-template <class CullRay, class Sink>
-HWY_INLINE bool traverse(const WideBvh& bvh, const CullRay& ray, WideReference current, Sink& sink) {
-    const BoxTest box_test(ray);
+// Tests what the ray may hit at or below `current`, until the collector wants no more. Returns whether it did.
+template <class Traced>
+HWY_INLINE bool traverse(Traced& traced, NodeRef current) {
+    constexpr bool in_order = std::remove_reference_t<decltype(traced.collector)>::wants_nearest_first;
+    const WideBvh& bvh = traced.bvh;
+    const WideNode* const nodes = bvh.nodes.data();
+    const BoxTest box_test(traced.traversal);
 
     // Each level leaves at most seven behind.
     StackEntry stack[(wide_bvh_width - 1) * bvh_max_depth + wide_bvh_width];
-    std::size_t height = 0;
+    StackEntry* top = stack;
     for (;;) {
         if (HWY_LIKELY(!current.is_leaf())) {
-            const WideNode& node = bvh.nodes[current.index()];
+            const WideNode& node = nodes[current.index()];
             HWY_ALIGN float entries[wide_bvh_width];
-            std::uint32_t bits = box_test(node, sink.last(), entries);
-            if (bits != 0) {
+            std::uint32_t bits = box_test(node, traced.traversal.last, entries);
+            if (HWY_LIKELY(bits != 0)) {
                 const std::uint32_t i = lowest_bit(bits);
                 bits &= bits - 1;
-                current = node.child[i];
-                if (bits == 0) continue;
-
-                // The nearest is next, the others wait, the farthest at the bottom.
-                prefetch(bvh, current);
-                float entry = entries[i];
-                const std::size_t bottom = height;
-                do {
-                    const std::uint32_t k = lowest_bit(bits);
+                if (bits == 0) {
+                    current = node.child[i];
+                    continue;
+                }
+                const auto push = [&](std::uint32_t k) HWY_ATTR {
+                    *top = {node.child[k], entries[k]};
+                    prefetch<typename Traced::Coordinate>(bvh, top->reference);
+                    ++top;
+                };
+                if constexpr (!in_order) {
+                    do {
+                        push(lowest_bit(bits));
+                        bits &= bits - 1;
+                    } while (bits != 0);
+                    current = node.child[i];
+                    continue;
+                }
+                // The nearest is next; the others wait, the farthest at the bottom.
+                std::uint64_t keys[wide_bvh_width];
+                keys[0] = child_key(entries, i);
+                keys[1] = child_key(entries, lowest_bit(bits));
+                bits &= bits - 1;
+                sort_pair(keys[0], keys[1]);
+                std::uint32_t count = 2;
+                if (bits != 0) {
+                    keys[2] = child_key(entries, lowest_bit(bits));
                     bits &= bits - 1;
-                    StackEntry pushed{node.child[k], entries[k]};
-                    prefetch(bvh, pushed.reference);
-                    if (Sink::in_order) {
-                        if (pushed.entry < entry) {
-                            std::swap(pushed.reference, current);
-                            std::swap(pushed.entry, entry);
-                        }
-                        std::size_t place = height;
-                        for (; place > bottom && stack[place - 1].entry < pushed.entry; --place)
-                            stack[place] = stack[place - 1];
-                        stack[place] = pushed;
-                    } else {
-                        stack[height] = {current, entry};
-                        current = pushed.reference;
-                        entry = pushed.entry;
+                    sort_pair(keys[1], keys[2]);
+                    sort_pair(keys[0], keys[1]);
+                    count = 3;
+                    for (; bits != 0; bits &= bits - 1, ++count) {
+                        const std::uint64_t key = child_key(entries, lowest_bit(bits));
+                        std::uint32_t slot = count;
+                        for (; slot > 0 && keys[slot - 1] < key; --slot) keys[slot] = keys[slot - 1];
+                        keys[slot] = key;
                     }
-                    ++height;
-                } while (bits != 0);
+                }
+                for (std::uint32_t k = 0; k + 1 < count; ++k) push(static_cast<std::uint32_t>(keys[k]));
+                current = node.child[static_cast<std::uint32_t>(keys[count - 1])];
                 continue;
             }
-        } else if (visit_leaf(bvh, ray, current, sink)) {
+        } else if (traced.test_leaf(current)) {
             return true;
         }
         // What has been pushed may lie beyond a hit found since.
+        const float last = traced.traversal.last;
+        const float last_entry = last + TraversalRay::box_slack * std::fabs(last);
         do {
-            if (height == 0) return false;
-            --height;
-        } while (Sink::in_order && stack[height].entry > sink.last());
-        current = stack[height].reference;
+            if (top == stack) return false;
+            --top;
+        } while (in_order && top->entry > last_entry);
+        current = top->reference;
     }
 }
 

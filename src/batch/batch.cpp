@@ -148,7 +148,7 @@ std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
 }
 
 // Hits to `window`, which writes them to `hits`.
-void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& found, RayWindow& window,
+void write_hits(const Tracer& tracer, const RayBlock& block, const PrimitiveHit* found, RayWindow& window,
                 const HitArrays& hits) {
     constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
     Hit as_asked[together];
@@ -156,7 +156,7 @@ void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& 
         const std::size_t n = std::min(together, block.size() - begin);
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = begin + k;
-            as_asked[k] = tracer.to_caller(block.rays[i], found.hits[i], found.corners[i]);
+            as_asked[k] = tracer.to_caller(found[i]);
         }
         window.write(block.elements.part(begin, n), as_asked, hits);
     }
@@ -169,14 +169,12 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
     BlockLoop loop(tracer, rays, parallel, ordering);
     const auto answer = [&](RayBlock& block) {
         if (takes_many(tracer)) {
-            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size()),
-                                    block.scratch.take<Corners>(block.size())};
-            tracer.accel().closest_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()},
-                                        found, block.scratch);
+            auto* const found = block.scratch.take<PrimitiveHit>(block.size());
+            tracer.accel().closest_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
             write_hits(tracer, block, found, loop.window(), hits);
         } else {
             Hit* const found = block.scratch.take<Hit>(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.closest(block.rays[k], block.skips[k]);
+            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.closest(block.rays[k], block.skips.query(k));
             loop.window().write(block.elements, found, hits);
         }
     };
@@ -188,10 +186,9 @@ std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const 
     const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
         bool* const found = block.scratch.take<bool>(block.size());
         if (takes_many(tracer)) {
-            tracer.accel().any_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()}, found,
-                                    block.scratch);
+            tracer.accel().any_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
         } else {
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips[k]);
+            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips.query(k));
         }
         occluded.write(block.elements, found);
     });
@@ -204,7 +201,7 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
     std::vector<std::vector<Hit>> found(rays.count);
     const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
         for (std::size_t k = 0; k < block.size(); ++k)
-            tracer.all(block.rays[k], found[block.elements[k]], block.skips[k]);
+            tracer.all(block.rays[k], found[block.elements[k]], block.skips.query(k));
     });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();

@@ -1,7 +1,7 @@
 // The rays of a batch, in the caller's arrays.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "batch/elements.h"
 #include "batch/skip_arrays.h"
 #include "geometry/triangle_mesh.h"

@@ -46,7 +46,7 @@ void SkipArrays::check(std::uint64_t rays, const Primitives& primitives) const {
 
 void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives) {
     numbers_.clear();
-    lists_.clear();
+    queries_.clear();
     if (!arrays.wanted()) return;
     std::vector<std::size_t> ends;
     ends.reserve(rays.count());
@@ -60,10 +60,10 @@ void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primi
         std::sort(numbers_.begin() + begin, numbers_.end());
         ends.push_back(numbers_.size());
     }
-    lists_.reserve(rays.count());
+    queries_.reserve(rays.count());
     const std::uint32_t* begin = numbers_.data();
     for (const std::size_t end : ends) {
-        lists_.push_back({begin, numbers_.data() + end});
+        queries_.push_back({{begin, numbers_.data() + end}});
         begin = numbers_.data() + end;
     }
 }

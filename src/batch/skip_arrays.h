@@ -1,10 +1,10 @@
 // The skip lists of a batch, in the caller's arrays.
 #pragma once
 
-#include "base/skip_list.h"
 #include "batch/elements.h"
 #include "geometry/primitives.h"
 #include "geometry/triangle_mesh.h"
+#include "ray/query.h"
 
 #include <cstdint>
 #include <vector>
@@ -49,12 +49,12 @@ public:
     // arrays: that were checked.
     void read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives);
 
-    const SkipList* data() const { return lists_.empty() ? nullptr : lists_.data(); } // null: none skips anything
-    SkipList operator[](std::size_t ray) const { return lists_.empty() ? SkipList{} : lists_[ray]; }
+    const Query* queries() const { return queries_.empty() ? nullptr : queries_.data(); } // null: none skips anything
+    Query query(std::size_t ray) const { return queries_.empty() ? Query{} : queries_[ray]; }
 
 private:
     std::vector<std::uint32_t> numbers_;
-    std::vector<SkipList> lists_;
+    std::vector<Query> queries_;
 };
 
 // Sorted, and seen as a list.

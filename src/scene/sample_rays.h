@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "geometry/primitives.h"
 #include "model/workload.h"
 

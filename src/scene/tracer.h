@@ -2,7 +2,6 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "base/ray.h"
 #include "geometry/primitives.h"
 
 #include <atomic>
@@ -38,19 +37,18 @@ class Tracer {
 public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
-    // skip: numbers of this scene's primitives.
-    Hit closest(const Ray& ray, SkipList skip = {}) const {
-        const SurfaceHit hit = accel_->closest(UnpreparedRay{ray, primitives_->bounds(), skip});
+    Hit closest(const Ray& ray, const Query& query = {}) const {
+        const PrimitiveHit hit = accel_->closest(ray, query);
         if (!hit.is_hit()) count_invalid(ray);
-        return to_caller(ray, hit, hit.corners);
+        return to_caller(hit);
     }
-    bool any(const Ray& ray, SkipList skip = {}) const {
-        const bool found = accel_->any(UnpreparedRay{ray, primitives_->bounds(), skip});
+    bool any(const Ray& ray, const Query& query = {}) const {
+        const bool found = accel_->any(ray, query);
         if (!found) count_invalid(ray);
         return found;
     }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
-    void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
+    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const;
 
     const Primitives& primitives() const { return *primitives_; }
     const std::shared_ptr<const Primitives>& shared_primitives() const { return primitives_; }
@@ -58,17 +56,16 @@ public:
     const std::shared_ptr<const Accel>& shared_accel() const { return accel_; }
     Usage& usage() const { return *usage_; }
 
-    // What a structure answers to a ray, as the caller sees it. corners: needed for a hit only.
-    Hit to_caller(const Ray& ray, const PrimitiveHit& hit, const Corners& corners) const {
+    // What a structure answers, as the caller sees it.
+    Hit to_caller(const PrimitiveHit& hit) const {
         if (!hit.is_hit()) return {};
-        const RayUnit unit(MajorAxis(ray.direction).magnitude);
         const PrimitiveId id = primitives_->locate(hit.primitive);
-        return {unit.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
+        return {hit.t, hit.u, hit.v, unit_normal(primitives_->corners(hit.primitive)), invalid_id, id.geometry, id.primitive};
     }
 
 private:
     void count_invalid(const Ray& ray) const {
-        if (ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+        if (ray.may_have_nan() && ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
     }
 
     std::shared_ptr<const Primitives> primitives_;

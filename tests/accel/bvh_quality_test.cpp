@@ -13,7 +13,7 @@ namespace {
 
 using namespace bvh_testing;
 
-std::size_t references(const Bvh& bvh) { return (bvh.tree().words.size() - block_size) / words_per_triangle; }
+std::size_t references(const Bvh& bvh) { return bvh.tree().triangle_count(); }
 
 void check(const Triangles& triangles, unsigned seed, int rays = 200) {
     Scene scene(triangles, 2);
@@ -50,12 +50,11 @@ TEST(BvhQuality, AllHitsOfPrimitivesThatWereCut) {
     for (int i = 0; i < 300; ++i) {
         const Corners& c = triangles[static_cast<std::size_t>(random.integer(0, 19999))];
         const Vec3 target = 0.4 * c[0] + 0.4 * c[1] + 0.2 * c[2];
-        const PreparedRay ray({target + random.direction(), -infinity, target - random.in_cube(), infinity},
-                              scene.bounds());
+        const Ray ray{target + random.direction(), -infinity, target - random.in_cube(), infinity};
         std::vector<PrimitiveHit> all(1);
         std::vector<PrimitiveHit> expected(1);
-        bvh.all(ray, all);
-        oracle::PlainScan(scene.input()).all(ray, expected);
+        bvh.all(ray, {}, all);
+        oracle::PlainScan(scene.input()).all(ray, {}, expected);
         std::sort(all.begin() + 1, all.end());
         ASSERT_EQ(all.size(), expected.size());
         for (std::size_t k = 0; k < all.size(); ++k) EXPECT_TRUE(same_hit(all[k], expected[k]));

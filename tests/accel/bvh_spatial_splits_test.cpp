@@ -4,7 +4,7 @@
 #include "accel/bvh_reference_cut.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
-#include "accel/scene_frame.h"
+#include "accel/dense_region.h"
 #include "accel/sticks_testing.h"
 
 #include <algorithm>
@@ -26,26 +26,12 @@ BvhBuildOptions high_quality(std::uint32_t block_size = 1) {
 // Cut primitives, and nothing moved afterwards.
 BvhTree build_cut(const BuildInput& input, const BvhBuildOptions& options, double budget = split_budget) {
     BvhTree tree;
-    tree.center = SceneFrame::choose_center(input.primitives.bounds());
+    tree.frame = scene_frame(input.primitives);
     const auto report = [&](std::uint64_t /*primitives*/) { input.progress.report(0.0, "bvh"); };
-    build_with_spatial_splits(gather_references(input, tree.center, report), budget, input, TreeCosts(input, options),
+    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input, TreeCosts(input, options),
                               report, tree);
     return tree;
 }
-
-// The tree with the interface of a structure.
-class TreeAccel final : public TraversedAccel<TreeAccel> {
-public:
-    TreeAccel(const BuildInput& input, const BvhTree& tree) : TraversedAccel(input.primitives), tree_(tree) {}
-    std::size_t bytes() const override { return tree_.bytes(); }
-    template <class Visitor>
-    void traverse(const PreparedRay& ray, Visitor& visitor) const {
-        traverse_boxes(tree_, ray, visitor);
-    }
-
-private:
-    const BvhTree& tree_;
-};
 
 void expect_sound(const Triangles& triangles, unsigned seed, int rays = 100) {
     Scene one(triangles, 1);
@@ -147,7 +133,7 @@ TEST(BvhSpatialSplits, CutsLoseNoPoint) {
         const BoxF rounded = round_outwards(box);
         Bounds part{Lanes{rounded.lower.x, rounded.lower.y, rounded.lower.z, 0.0f},
                     Lanes{rounded.upper.x, rounded.upper.y, rounded.upper.z, 0.0f}};
-        const CuttableTriangle triangle(corners);
+        const ClippedTriangle triangle(corners);
         // Three cuts, one after the other, each of what is above or below the one before.
         for (int cut = 0; cut < 3; ++cut) {
             const int axis = random.integer(0, 2);
@@ -156,7 +142,7 @@ TEST(BvhSpatialSplits, CutsLoseNoPoint) {
                                                                          static_cast<double>(part.upper[axis]));
             const auto plane = static_cast<float>(at);
             if (!(plane > part.lower[axis] && plane < part.upper[axis])) continue;
-            const CuttableTriangle::Sides sides = triangle.cut(part, axis, plane);
+            const ClippedTriangle::Sides sides = triangle.cut(part, axis, plane);
             for (int i = 0; i <= 16; ++i) {
                 for (int j = 0; i + j <= 16; ++j) {
                     const Vec3 p =

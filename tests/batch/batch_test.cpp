@@ -95,7 +95,7 @@ TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             std::vector<std::uint32_t> numbers;
             if (skipped[i] != invalid_id) numbers.push_back(skipped[i]);
-            ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i], sorted(numbers)))) << i;
+            ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i], {sorted(numbers)}))) << i;
         }
     }
 }

@@ -1,7 +1,7 @@
 // Rays that the tests of batches share.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "batch/ray_arrays.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 // Reading a file neither makes meshes nor rays, so it never depends on the machine; expand.h does that.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "contract/expectation.h"
 
 #include <cstdint>

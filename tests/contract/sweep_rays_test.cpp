@@ -117,7 +117,7 @@ TEST(RayMaker, BadRaysAreMisses) {
     RayMaker maker(scene, random);
     for (int i = 0; i < 200; ++i) {
         const rw_ray ray = maker.bad();
-        if (PreparedRay::is_traceable(as_ray(ray))) {
+        if (as_ray(ray).is_traceable()) {
             // An interval that ends at infinity or begins before everything is none of the bad ones.
             ADD_FAILURE() << text_of(ray);
         }

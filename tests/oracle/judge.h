@@ -4,7 +4,7 @@
 // and the sign of each edge's determinant is simply computed.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "oracle/scenes.h"
 
 #include <boost/multiprecision/gmp.hpp>

@@ -75,7 +75,7 @@ Vec3 stepped_from(Maker& make, const Vec3& p) {
 
 // Structures are asked no others.
 std::vector<Ray> traceable(std::vector<Ray> rays) {
-    rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& ray) { return !PreparedRay::is_traceable(ray); }),
+    rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& ray) { return !ray.is_traceable(); }),
                rays.end());
     return rays;
 }

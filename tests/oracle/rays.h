@@ -1,7 +1,7 @@
 // Rays for the judge: ordinary ones, and those that are known to go wrong elsewhere.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "oracle/scenes.h"
 
 #include <vector>

@@ -110,11 +110,11 @@ TEST_P(EveryStructure, AgreesAtTheEndsOfIntervals) {
         const Primitives primitives = primitives_of(scene);
         std::vector<Ray> limited;
         for (Ray ray : random_rays(scene, 120, 42)) {
-            const PreparedRay prepared(ray, primitives.bounds());
+            const ExactRay exact(ray);
             PrimitiveHit hit;
             for (std::uint32_t i = 0; i < primitives.count(); ++i) {
-                if (!primitives.test(prepared, i, hit)) continue;
-                const double t = prepared.to_caller(hit.t);
+                if (!primitives.test(exact, i, hit)) continue;
+                const double t = hit.t;
                 for (const double end : {t, std::nextafter(t, 0.0), std::nextafter(t, infinity)}) {
                     limited.push_back({ray.origin, 0.0, ray.direction, end});
                     limited.push_back({ray.origin, end, ray.direction, infinity});
@@ -162,7 +162,7 @@ TEST_P(EveryStructure, AgreesWithAnyView) {
                     if (rays.size() < 300 && v != point) rays.push_back({point, 0.0, v - point, infinity});
                 }
                 rays.erase(std::remove_if(rays.begin(), rays.end(),
-                                          [](const Ray& r) { return !PreparedRay::is_traceable(r); }),
+                                          [](const Ray& r) { return !r.is_traceable(); }),
                            rays.end());
                 all.add(compare_with_linear_scan(GetParam(), scene, rays, view));
             }
@@ -207,8 +207,8 @@ TEST_P(EveryStructure, AgreesForSeveralMeshes) {
     const auto in_parts = build(GetParam(), BuildInput{parts, {}, std::nullopt, parallel, progress});
     const auto expected = build(Structure::linear_scan, BuildInput{whole, {}, std::nullopt, parallel, progress});
     for (const Ray& ray : random_rays(together, 300, 50)) {
-        const PrimitiveHit wanted = expected->closest(PreparedRay(ray, whole.bounds()));
-        const PrimitiveHit hit = in_parts->closest(PreparedRay(ray, parts.bounds()));
+        const PrimitiveHit wanted = expected->closest(ray, {});
+        const PrimitiveHit hit = in_parts->closest(ray, {});
         EXPECT_EQ(hit.primitive, wanted.primitive) << describe(ray);
         EXPECT_EQ(hit.t, wanted.t);
         if (hit.is_hit()) {
@@ -231,7 +231,7 @@ TEST_P(EveryStructure, IsTheSameHoweverManyThreadsBuildIt) {
         EXPECT_GT(accel->bytes(), 0u);
         EXPECT_LT(accel->bytes(), 2 * bytes + 100000);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const PrimitiveHit hit = accel->closest(PreparedRay(rays[i], primitives.bounds()));
+            const PrimitiveHit hit = accel->closest(rays[i], {});
             if (threads == 1) wanted.push_back(hit);
             EXPECT_EQ(hit.primitive, wanted[i].primitive);
             EXPECT_EQ(hit.t, wanted[i].t);
@@ -250,8 +250,7 @@ TEST_P(EveryStructure, IsBuiltWithAHostsLoopThatRunsBackwards) {
     const Parallel one(1);
     const auto expected = build(Structure::linear_scan, BuildInput{primitives, {}, std::nullopt, one, progress});
     for (const Ray& ray : random_rays(scene, 200, 53)) {
-        const PreparedRay prepared(ray, primitives.bounds());
-        EXPECT_EQ(accel->closest(prepared).primitive, expected->closest(prepared).primitive);
+        EXPECT_EQ(accel->closest(ray, {}).primitive, expected->closest(ray, {}).primitive);
     }
 }
 
@@ -295,13 +294,13 @@ TEST_P(EveryStructure, AnswersManyThreadsAtOnce) {
     const auto accel = build(GetParam(), BuildInput{primitives, {}, std::nullopt, one, progress});
     const std::vector<Ray> rays = random_rays(scene, 200, 56);
     std::vector<PrimitiveHit> wanted;
-    for (const Ray& ray : rays) wanted.push_back(accel->closest(PreparedRay(ray, primitives.bounds())));
+    for (const Ray& ray : rays) wanted.push_back(accel->closest(ray, {}));
     std::vector<std::thread> threads;
     std::vector<int> differences(4, 0);
     for (std::size_t t = 0; t < differences.size(); ++t) {
         threads.emplace_back([&, t] {
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                const PrimitiveHit hit = accel->closest(PreparedRay(rays[i], primitives.bounds()));
+                const PrimitiveHit hit = accel->closest(rays[i], {});
                 if (hit.primitive != wanted[i].primitive || hit.t != wanted[i].t) ++differences[t];
             }
         });

@@ -1,7 +1,7 @@
 // What every language is asked: meshes, rays, and the triangles that the rays skip.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "oracle/scenes.h"
 #include "raywise/raywise.h"
 

@@ -4,7 +4,7 @@
 // leaks at edges; nobody's answers come from here.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "base/vec.h"
 #include "geometry/exact.h"
 

@@ -2,7 +2,7 @@
 // which costs it a little.
 #pragma once
 
-#include "base/ray.h"
+#include "ray/ray.h"
 #include "base/vec.h"
 #include "geometry/exact.h"
 
