@@ -46,7 +46,7 @@ struct ExplainOptions {
 };
 int run_explain(const ExplainOptions& options);
 
-// "raywise-calibrate 0.1.0"
+// "raywise-calibrate 0.2.0"
 std::string tool_name();
 
 // A line on standard error: "raywise-calibrate: message".

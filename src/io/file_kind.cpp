@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/format.h"
 
 #include <system_error>
 
@@ -24,7 +25,7 @@ std::string read_file(const std::filesystem::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) throw Error(Status::ERROR_FILE_NOT_FOUND, "there is no such file");
-    if (error) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be looked at: " + error.message());
+    if (error) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be looked at: " + error_text(error.value()));
     // Opening a pipe could wait for ever.
     if (!fs::is_regular_file(status)) throw Error(Status::ERROR_FILE_UNREADABLE, "is no plain file");
     std::string bytes;

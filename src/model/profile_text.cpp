@@ -1,27 +1,15 @@
 // A profile as a table for people, at most 100 columns wide as far as words can be broken.
+#include "base/format.h"
 #include "base/words.h"
 #include "model/cost_functions.h"
 #include "model/profile.h"
 
-#include <cstdarg>
-#include <cstdio>
 #include <string_view>
 
 namespace raywise {
 namespace {
 
 constexpr std::size_t columns = 100;
-
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-
-std::string format(const char* pattern, ...) {
-    char buffer[256];
-    std::va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(buffer, sizeof(buffer), pattern, arguments);
-    va_end(arguments);
-    return buffer;
-}
 
 // "label    words that go on", continued under the first word.
 std::string paragraph(const std::string& label, const std::string& words) {
@@ -49,6 +37,14 @@ std::string size_text(std::uint64_t bytes) {
     return format("%g KiB", static_cast<double>(bytes) / (1 << 10));
 }
 
+std::string row(const char* structure, const std::string& cost, const CostLine& line, const char* quantity,
+                const char* unit) {
+    return format("%-14s %-12s %14.6g %s %14.6g %s %-8s %9.0f %%\n", structure, cost.c_str(), line.fixed, quantity,
+                  line.per_unit, quantity, unit, line.residual * 100.0);
+}
+
+} // namespace
+
 std::string source_text(const Profile& profile) {
     switch (profile.source) {
         case ProfileSource::generic:
@@ -64,14 +60,6 @@ std::string source_text(const Profile& profile) {
     }
     return {};
 }
-
-std::string row(const char* structure, const std::string& cost, const CostLine& line, const char* quantity,
-                const char* unit) {
-    return format("%-14s %-12s %14.6g %s %14.6g %s %-8s %9.0f %%\n", structure, cost.c_str(), line.fixed, quantity,
-                  line.per_unit, quantity, unit, line.residual * 100.0);
-}
-
-} // namespace
 
 std::string to_text(const Profile& profile) {
     const Machine& machine = profile.machine;

@@ -1,10 +1,10 @@
 #include "scene/explain.h"
 
+#include "base/format.h"
 #include "model/json_writer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace raywise {
 namespace {
@@ -13,13 +13,6 @@ constexpr const char* effort_names[] = {"estimate", "probe", "measure"};
 constexpr const char* rule_names[] = {"smallest_total", "hapala"};
 constexpr const char* kind_names[] = {"any kind", "random", "camera", "shadow", "diffuse"};
 constexpr const char* source_names[] = {"generic", "path", "environment", "user", "system"};
-
-template <class... Arguments>
-std::string format(const char* pattern, Arguments... arguments) {
-    char buffer[256];
-    const int length = std::snprintf(buffer, sizeof buffer, pattern, arguments...);
-    return std::string(buffer, static_cast<std::size_t>(std::clamp<int>(length, 0, sizeof buffer - 1)));
-}
 
 // A duration in the unit that leaves one to three digits before the point; "-" for NaN.
 std::string duration(double ns) {
@@ -87,9 +80,8 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
         plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
     text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
-    text +=
-        format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
-    text += profile.status == Status::OK ? std::string("\n") : " (" + profile.reason + ")\n";
+    text += "calibration: " + source_text(profile) + ", measured " + profile.provenance.date + "\n";
+    if (profile.status != Status::OK) text += "passed over: " + profile.reason + "\n";
     if (plan.hapala) {
         text += format("Hapala: kd-tree predicted %s to build, %s a ray; critical number of rays %.3g: %s\n",
                        duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),

@@ -49,6 +49,43 @@ TEST(Explain, JsonSaysWhatThePlanSays) {
     }
 }
 
+TEST(Explain, TellsWhereTheConstantsCameFromAndWhatWasPassedOver) {
+    struct Source {
+        ProfileSource source;
+        const char* path;
+        const char* line; // of the text
+        const char* word; // of the JSON
+    };
+    const Source sources[] = {
+        {ProfileSource::generic, "", "calibration: generic constants, compiled in, measured 2026-01-02", "generic"},
+        {ProfileSource::path, "/a.json", "calibration: /a.json, measured 2026-01-02", "path"},
+        {ProfileSource::environment, "/a.json", "calibration: /a.json (RAYWISE_CALIBRATION), measured 2026-01-02",
+         "environment"},
+        {ProfileSource::user, "/a.json", "calibration: /a.json (user), measured 2026-01-02", "user"},
+        {ProfileSource::system, "/a.json", "calibration: /a.json (system), measured 2026-01-02", "system"},
+    };
+    for (const Source& each : sources) {
+        for (const Status status : {Status::OK, Status::PROFILE_MALFORMED, Status::PROFILE_MACHINE}) {
+            auto profile = std::make_shared<Profile>(generic_profile());
+            profile->source = each.source;
+            profile->path = each.path;
+            profile->provenance.date = "2026-01-02";
+            profile->status = status;
+            if (status != Status::OK) profile->reason = "/bad.json: it is bad";
+            const auto scene = make_scene(make_soup(10), profile, [](Scene&) {});
+            const std::string text = explain_text(scene->plan(), scene->tracer(), *profile);
+            EXPECT_NE(text.find("\n" + std::string(each.line) + "\n"), std::string::npos) << text;
+            EXPECT_EQ(text.find("\npassed over: /bad.json: it is bad\n") != std::string::npos, status != Status::OK);
+            const auto json = nlohmann::json::parse(explain_json(scene->plan(), scene->tracer(), *profile));
+            const auto& calibration = json.at("calibration");
+            EXPECT_EQ(calibration.at("source"), each.word);
+            EXPECT_EQ(calibration.at("path"), each.path);
+            EXPECT_EQ(calibration.at("status"), static_cast<int>(status));
+            EXPECT_EQ(calibration.at("reason"), profile->reason);
+        }
+    }
+}
+
 TEST(Explain, TellsTheBreakEvenOfTheOthers) {
     const auto scene = scene_for(1);
     const Plan& plan = scene->plan();
