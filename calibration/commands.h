@@ -40,7 +40,7 @@ int run_check(const CheckOptions& options);
 
 struct ExplainOptions {
     std::string mesh;
-    std::uint64_t rays = 0; // RW_RAYS_UNKNOWN when not known
+    std::uint64_t rays = 0; // RW_RAYS_UNKNOWN when not known; 0: a table of many numbers
     std::int32_t kind = 0;  // RW_RAYS_
     bool json = false;
 };

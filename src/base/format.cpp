@@ -1,5 +1,6 @@
 #include "base/format.h"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -34,6 +35,27 @@ std::string format(const char* pattern, ...) {
     std::vsnprintf(text.data(), text.size() + 1, pattern, again);
     va_end(again);
     return text;
+}
+
+std::string duration_text(double ns) {
+    if (std::isnan(ns)) return "-";
+    if (ns < 1e3) return format("%.3g ns", ns);
+    if (ns < 1e6) return format("%.3g us", ns / 1e3);
+    if (ns < 1e9) return format("%.3g ms", ns / 1e6);
+    return format("%.4g s", ns / 1e9);
+}
+
+std::string size_text(double bytes) {
+    if (bytes < 1024.0) return format("%.0f B", bytes);
+    if (bytes < 1048576.0) return format("%.3g KiB", bytes / 1024.0);
+    if (bytes < 1073741824.0) return format("%.3g MiB", bytes / 1048576.0);
+    return format("%.3g GiB", bytes / 1073741824.0);
+}
+
+std::string grouped_text(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
 }
 
 std::string error_text(int error) { return ::strerror_l(error, plain_locale()); }

@@ -3,6 +3,7 @@
 
 #include <locale.h>
 
+#include <cstdint>
 #include <string>
 
 namespace raywise {
@@ -22,6 +23,15 @@ private:
 
 // printf into a string.
 std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+
+// A duration in the unit that leaves one to three digits before the point; "-" for NaN.
+std::string duration_text(double ns);
+
+// Bytes likewise.
+std::string size_text(double bytes);
+
+// 1234567 as 1,234,567.
+std::string grouped_text(std::uint64_t number);
 
 // What the system says of an errno value, in English.
 std::string error_text(int error);

@@ -32,7 +32,7 @@ std::string paragraph(const std::string& label, const std::string& words) {
     return text + "\n";
 }
 
-std::string size_text(std::uint64_t bytes) {
+std::string cache_text(std::uint64_t bytes) {
     if (bytes >= std::uint64_t{1} << 20) return format("%g MiB", static_cast<double>(bytes) / (1 << 20));
     return format("%g KiB", static_cast<double>(bytes) / (1 << 10));
 }
@@ -72,8 +72,8 @@ std::string to_text(const Profile& profile) {
                       machine.brand + " (" + machine.vendor + " family " + std::to_string(machine.family) + " model " +
                           std::to_string(machine.model) + " stepping " + std::to_string(machine.stepping) + "), " +
                           machine.instruction_set + ", " + machine.precision + ", " + std::to_string(machine.threads) +
-                          " threads, caches " + size_text(machine.l1_bytes) + " / " + size_text(machine.l2_bytes) +
-                          " / " + size_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
+                          " threads, caches " + cache_text(machine.l1_bytes) + " / " + cache_text(machine.l2_bytes) +
+                          " / " + cache_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
     text += paragraph("key", machine.key());
     text += paragraph("measured at", provenance.date + ", mode " + provenance.mode + ", " +
                                          format("%.0f s, spread of repeated timings %.1f %%", provenance.seconds,

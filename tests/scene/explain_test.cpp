@@ -57,12 +57,11 @@ TEST(Explain, TellsWhereTheConstantsCameFromAndWhatWasPassedOver) {
         const char* word; // of the JSON
     };
     const Source sources[] = {
-        {ProfileSource::generic, "", "calibration: generic constants, compiled in, measured 2026-01-02", "generic"},
-        {ProfileSource::path, "/a.json", "calibration: /a.json, measured 2026-01-02", "path"},
-        {ProfileSource::environment, "/a.json", "calibration: /a.json (RAYWISE_CALIBRATION), measured 2026-01-02",
-         "environment"},
-        {ProfileSource::user, "/a.json", "calibration: /a.json (user), measured 2026-01-02", "user"},
-        {ProfileSource::system, "/a.json", "calibration: /a.json (system), measured 2026-01-02", "system"},
+        {ProfileSource::generic, "", "calibration: generic, measured 2026-01-02\n", "generic"},
+        {ProfileSource::path, "/a.json", "calibration: path, measured 2026-01-02\n", "path"},
+        {ProfileSource::environment, "/a.json", "calibration: environment, measured 2026-01-02\n", "environment"},
+        {ProfileSource::user, "/a.json", "calibration: user, measured 2026-01-02\n", "user"},
+        {ProfileSource::system, "/a.json", "calibration: system, measured 2026-01-02\n", "system"},
     };
     for (const Source& each : sources) {
         for (const Status status : {Status::OK, Status::PROFILE_MALFORMED, Status::PROFILE_MACHINE}) {
@@ -74,7 +73,8 @@ TEST(Explain, TellsWhereTheConstantsCameFromAndWhatWasPassedOver) {
             if (status != Status::OK) profile->reason = "/bad.json: it is bad";
             const auto scene = make_scene(make_soup(10), profile, [](Scene&) {});
             const std::string text = explain_text(scene->plan(), scene->tracer(), *profile);
-            EXPECT_NE(text.find("\n" + std::string(each.line) + "\n"), std::string::npos) << text;
+            EXPECT_NE(text.find("\n" + std::string(each.line)), std::string::npos) << text;
+            EXPECT_EQ(text.find("\nprofile: /a.json\n") != std::string::npos, *each.path != '\0') << text;
             EXPECT_EQ(text.find("\npassed over: /bad.json: it is bad\n") != std::string::npos, status != Status::OK);
             const auto json = nlohmann::json::parse(explain_json(scene->plan(), scene->tracer(), *profile));
             const auto& calibration = json.at("calibration");
