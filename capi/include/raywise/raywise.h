@@ -78,28 +78,27 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
  * ------------------------------------------------------------------------------------------------ */
 
 #define RW_OK 0
-#define RW_ERROR_INVALID_ARGUMENT \
-    1 /* NULL, an unknown constant, a struct_size that cannot be, a number out of its range */
+#define RW_ERROR_INVALID_ARGUMENT 1   /* NULL, an unknown constant, an impossible struct_size, a number out of range */
 #define RW_ERROR_OUT_OF_MEMORY 2      /* an allocation failed; nothing was changed but a batch's outputs */
 #define RW_ERROR_NOT_FINITE 3         /* a vertex has a NaN or infinite coordinate */
 #define RW_ERROR_COORDINATE_RANGE 4   /* a float64 vertex lies beyond what a float32 box can hold */
 #define RW_ERROR_INDEX_OUT_OF_RANGE 5 /* an index or id names a vertex, geometry or triangle that is not there */
-#define RW_ERROR_TOO_MANY 6 /* more vertices or triangles than the ids can count, more rays than RW_RAYS_LIMIT */
-#define RW_ERROR_ALREADY_COMMITTED 7 /* a committed scene cannot be changed */
-#define RW_ERROR_NOT_COMMITTED 8     /* the scene has to be committed first */
-#define RW_ERROR_UNKNOWN_STRUCTURE 9 /* no structure has that name */
-#define RW_ERROR_WRONG_STRUCTURE 10  /* the question has no meaning for the structure in use */
-#define RW_ERROR_RAY_COUNT 11        /* an expected ray count of zero, or above RW_RAYS_LIMIT */
-#define RW_ERROR_CAPACITY 12         /* the output is too small; `needed` says how large it has to be */
-#define RW_ERROR_CANCELLED 13        /* the progress callback asked to stop; nothing was changed */
-#define RW_ERROR_MEMORY_LIMIT 14     /* no candidate fits the memory limit */
-#define RW_ERROR_FILE_NOT_FOUND 15   /* there is no such file */
-#define RW_ERROR_FILE_UNREADABLE 16  /* the file is there but cannot be opened or read */
-#define RW_ERROR_FILE_FORMAT 17      /* the file's kind is unknown or its content is not of that kind */
-#define RW_ERROR_NO_FACES 18         /* a mesh file without a single face */
-#define RW_ERROR_BAD_POLYGON 19      /* a face with fewer than three corners */
-#define RW_ERROR_HOST_PARALLEL 20    /* the caller's parallel-for left a task out or ran one twice */
-#define RW_ERROR_INTERNAL 21         /* an unexpected failure; please report it */
+#define RW_ERROR_TOO_MANY 6           /* more vertices, triangles or rays than there may be */
+#define RW_ERROR_ALREADY_COMMITTED 7  /* a committed scene cannot be changed */
+#define RW_ERROR_NOT_COMMITTED 8      /* the scene has to be committed first */
+#define RW_ERROR_UNKNOWN_STRUCTURE 9  /* no structure has that name */
+#define RW_ERROR_WRONG_STRUCTURE 10   /* the question has no meaning for the structure in use */
+#define RW_ERROR_RAY_COUNT 11         /* an expected ray count of zero, or above RW_RAYS_LIMIT */
+#define RW_ERROR_CAPACITY 12          /* the output is too small; `needed` says how large it has to be */
+#define RW_ERROR_CANCELLED 13         /* the progress callback asked to stop; nothing was changed */
+#define RW_ERROR_MEMORY_LIMIT 14      /* no candidate fits the memory limit */
+#define RW_ERROR_FILE_NOT_FOUND 15    /* there is no such file */
+#define RW_ERROR_FILE_UNREADABLE 16   /* the file is there but cannot be opened or read */
+#define RW_ERROR_FILE_FORMAT 17       /* the file's kind is unknown or its content is not of that kind */
+#define RW_ERROR_NO_FACES 18          /* a mesh file without a single face */
+#define RW_ERROR_BAD_POLYGON 19       /* a face with fewer than three corners */
+#define RW_ERROR_HOST_PARALLEL 20     /* the caller's parallel-for left a task out or ran one twice */
+#define RW_ERROR_INTERNAL 21          /* an unexpected failure; please report it */
 
 /* Why a calibration profile was passed over. What is used instead, the next valid file or the generic constants that are compiled
  * in, is told by rw_profile_info. */
