@@ -1,6 +1,7 @@
 #include "io/mesh_file.h"
 
 #include "base/error.h"
+#include "geometry/polygon_triangles.h"
 #include "io/expected.h"
 #include "io/file_kind.h"
 #include "io/openmesh_reader.h"
@@ -10,6 +11,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace raywise {
 namespace {
@@ -31,9 +33,9 @@ Expected prepare(FileKind kind, std::string& text) {
 }
 
 // Cuts faces into triangles.
-class Fans {
+class FaceTriangles {
 public:
-    explicit Fans(LoadedMesh& mesh) : mesh_(mesh) {}
+    explicit FaceTriangles(LoadedMesh& mesh) : mesh_(mesh) {}
 
     template <class Index>
     void add(std::uint32_t face, const Index* corners, std::size_t count) {
@@ -43,16 +45,20 @@ public:
                 fail_index(face, std::to_string(corners[i]), mesh_.vertex_count());
         }
         if (mesh_.triangle_count() + count - 2 >= std::numeric_limits<std::uint32_t>::max()) fail_too_many("triangles");
-        for (std::size_t i = 2; i < count; ++i) {
-            mesh_.indices.insert(mesh_.indices.end(),
-                                 {static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
-                                  static_cast<std::uint32_t>(corners[i])});
+        polygon_.clear();
+        for (std::size_t i = 0; i < count; ++i) polygon_.push_back(mesh_.vertex(static_cast<std::size_t>(corners[i])));
+        for (const CornerTriple& triangle : cutter_.cut(polygon_)) {
+            for (const std::uint32_t position : triangle) {
+                mesh_.indices.push_back(static_cast<std::uint32_t>(corners[position]));
+            }
             mesh_.face_of_triangle.push_back(face);
         }
     }
 
 private:
     LoadedMesh& mesh_;
+    PolygonTriangles cutter_;
+    std::vector<Vec3> polygon_;
 };
 
 // Whether the OBJ reader hands a face on: it takes repeated corners out and wants three in the end.
@@ -84,18 +90,18 @@ LoadedMesh assemble(const Expected& expected, RawMesh raw) {
                     "vertex " + std::to_string(i / 3) + ": coordinate " + "xyz"[i % 3] +
                         (std::isnan(mesh.vertices[i]) ? " is NaN" : " is infinite, or too large for a float32"));
     }
-    Fans fans(mesh);
+    FaceTriangles triangles(mesh);
     auto repeated = expected.repeated.begin();
     std::size_t next = 0; // of the faces delivered
     for (std::uint32_t face = 0; face < mesh.face_count; ++face) {
         if (repeated != expected.repeated.end() && repeated->face == face) {
-            fans.add(face, repeated->corners.data(), repeated->corners.size());
+            triangles.add(face, repeated->corners.data(), repeated->corners.size());
             if (is_delivered(repeated->corners)) ++next;
             ++repeated;
             continue;
         }
         const std::size_t begin = next == 0 ? 0 : raw.face_ends[next - 1];
-        fans.add(face, raw.corners.data() + begin, raw.face_ends[next] - begin);
+        triangles.add(face, raw.corners.data() + begin, raw.face_ends[next] - begin);
         ++next;
     }
     return mesh;

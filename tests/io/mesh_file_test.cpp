@@ -134,12 +134,27 @@ TEST_F(MeshFile, ReadsNamesWithSpacesAndLettersOutsideAscii) {
     expect_square(load(".ply.ply", square_ply));
 }
 
-TEST_F(MeshFile, CutsPolygonsIntoFansInTheOrderOfTheirCorners) {
+TEST_F(MeshFile, CutsConvexPolygonsIntoFansInTheOrderOfTheirCorners) {
     const LoadedMesh mesh =
         load("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 5\nf 3 4 5 1 2\nf 4 3 2\n");
     EXPECT_EQ(mesh.indices, (Indices{0, 1, 4, 2, 3, 4, 2, 4, 0, 2, 0, 1, 3, 2, 1}));
     EXPECT_EQ(mesh.face_of_triangle, (Indices{0, 1, 1, 1, 2}));
     EXPECT_EQ(mesh.face_count, 3u);
+}
+
+TEST_F(MeshFile, CutsConcavePolygonsInside) {
+    const Indices expected = {1, 2, 3, 0, 1, 3}; // concave at the last corner
+    const std::string off = "4 2 0\n0 0 0\n4 -2 0\n0 4 0\n1 0 0\n4 0 1 2 3\n4 3 2 1 0\n";
+    const LoadedMesh mesh = load("a.off", "OFF\n" + off);
+    EXPECT_EQ(mesh.indices, (Indices{1, 2, 3, 0, 1, 3, 3, 2, 1, 3, 1, 0})) << "the second from its first corner";
+    EXPECT_EQ(mesh.face_of_triangle, (Indices{0, 0, 1, 1}));
+    EXPECT_EQ(load("a.obj", "v 0 0 0\nv 4 -2 0\nv 0 4 0\nv 1 0 0\nf 1 2 3 4\n").indices, expected);
+    EXPECT_EQ(load("a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                   "0 0 0\n4 -2 0\n0 4 0\n1 0 0\n4 0 1 2 3\n")
+                  .indices,
+              expected);
 }
 
 TEST_F(MeshFile, KeepsMeshesThatAreNoManifolds) {

@@ -53,7 +53,8 @@ class Mesh(Handle):
     """
 
     def __init__(self, path: PathLike) -> None:
-        """Reads a file; the ending tells the format. Polygons are cut into triangle fans in the order of their corners.
+        """Reads a file; the ending tells the format. A face of n corners becomes n - 2 triangles that cover its inside, also
+        where it is concave; a convex one the fan about its first corner.
 
         Raises FileNotFoundError, OSError (unreadable), ValueError (MeshFormat, NoFaces, BadPolygon, IndexOutOfRange,
         NotFinite, TooMany) or MemoryError.

@@ -1618,7 +1618,15 @@ RW_ERROR_INVALID_ARGUMENT. Asking for the size only is RW_OK. Threads: any. Sinc
     ) -> i32;
     /**
 ```text
-Does: reads an OBJ, PLY, OFF or STL file. Polygons are cut into triangle fans in the order of their corners.
+Does: reads an OBJ, PLY, OFF or STL file. A face of n corners becomes n - 2 triangles of its corners, faces in the order of the
+file. A convex face becomes the fan about its first corner: (0, 1, 2), (0, 2, 3) and so on. Any other is cut ear by ear, as seen
+in the coordinate plane where its area is largest, on exact signs: the corners are looked at in the order 1, 2 ... n - 1, 0, each
+one is cut off where the triangle with its neighbours holds nothing else of the outline, and then those next to a cut, in the
+order of the cuts. Each triangle has its corners in the order of the face, beginning with the lowest position. The triangles
+cover the inside once and nothing else, also with holes that are joined to the outline by lines there and back, and where the
+outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
+area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
+corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
 path: UTF-8, not NULL; the ending tells the format.
 mesh: receives a mesh the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,

@@ -27,7 +27,8 @@ unsafe impl Send for Mesh {}
 unsafe impl Sync for Mesh {}
 
 impl Mesh {
-    /// Reads a file; its ending tells the format. Polygons are cut into triangle fans in the order of their corners.
+    /// Reads a file; its ending tells the format. A face of n corners becomes n - 2 triangles that cover its inside, also where
+    /// it is concave; a convex one the fan about its first corner.
     /// Wraps `rw_mesh_load`, `rw_mesh_triangles` and `rw_mesh_faces`.
     ///
     /// # Errors
