@@ -124,8 +124,9 @@ void Parallel::for_blocks(std::uint64_t count, std::uint64_t grain,
     // Several blocks per thread balance uneven work; never smaller than the grain.
     const std::uint64_t wanted = std::max<std::uint64_t>(1, std::uint64_t{threads_} * 8);
     const std::uint64_t block = std::max(grain, (count + wanted - 1) / wanted);
-    const std::uint64_t blocks = (count + block - 1) / block;
-    for_each(blocks, [&](std::uint64_t i) { body(i * block, std::min(count, (i + 1) * block)); });
+    // What is left over is a block of its own only where it is as long as the grain.
+    const std::uint64_t blocks = std::max<std::uint64_t>(1, count / block + (count % block >= grain ? 1 : 0));
+    for_each(blocks, [&](std::uint64_t i) { body(i * block, i + 1 == blocks ? count : (i + 1) * block); });
 }
 
 } // namespace raywise

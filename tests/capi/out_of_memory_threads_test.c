@@ -11,9 +11,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#define RAYS 520 /* three tasks */
-#define ALL_RAYS 260
-#define TRIANGLES 300
+#define RAYS 520 /* three blocks, two threads */
+#define ALL_RAYS 512
+#define TRIANGLES 1100 /* fewer are built in one thread */
 #define SECONDS_TO_RETURN 120 /* far beyond what any attempt takes: a call has hung */
 
 static soup some;
