@@ -1,5 +1,7 @@
 #include "calls.h"
 
+#include <algorithm>
+
 #include <unistd.h>
 
 namespace {

@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <iterator>
+#include <memory>
 #include <thread>
 
 #include <pthread.h>
