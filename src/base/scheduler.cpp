@@ -46,7 +46,8 @@ Arena* make(unsigned threads) {
         auto made = std::make_unique<Arena>(threads);
         made->arena.initialize();
         made->next = arenas.load();
-        while (!arenas.compare_exchange_weak(made->next, made.get())) {}
+        while (!arenas.compare_exchange_weak(made->next, made.get())) {
+        }
         return made.release();
     } catch (const std::exception&) {
         return nullptr;
@@ -87,7 +88,8 @@ void after_fork_in_child() { state.store(Threads::unavailable); }
 bool threads_are_there(unsigned threads) {
     Threads now = state.load();
     if (now == Threads::not_asked_for && state.compare_exchange_strong(now, Threads::starting)) {
-        const bool started = pthread_atfork(nullptr, nullptr, after_fork_in_child) == 0 && Taken(threads).get() != nullptr;
+        const bool started =
+            pthread_atfork(nullptr, nullptr, after_fork_in_child) == 0 && Taken(threads).get() != nullptr;
         now = started ? Threads::ready : Threads::unavailable;
         state.store(now);
     }

@@ -1,7 +1,8 @@
 // Nothing grows: after very many calls of each kind as much memory is in use, and as many threads are there, as after the first.
 // Bytes are counted, not seconds:
-//   growth_test            some hundreds of each kind
-//   growth_test CALLS      so many of each, with the time a call took at the beginning and at the end
+//   growth_test                some hundreds of each kind
+//   growth_test CALLS [KIND]   so many of each, or of those whose name has KIND in it, with the time a call took at the beginning and
+//                              at the end
 #include "calls.h"
 
 #include "process.h"
@@ -114,20 +115,30 @@ private:
     std::vector<std::unique_ptr<Caller>> callers_;
 };
 
-void run_all(const CallFiles& files, unsigned host_threads, const char* when, long share, long asked_for) {
+// What the command line asks for.
+struct Form {
+    long calls = 0; // of each kind; 0: the short form
+    std::string kind;
+};
+
+void run_all(const CallFiles& files, unsigned host_threads, const char* when, const Form& form) {
     Host host(files, host_threads);
-    for (const Call& call : all_calls(files))
-        host.run(call, asked_for > 0 ? asked_for : call.weight / share, when, asked_for > 0);
+    for (const Call& call : all_calls(files)) {
+        if (call.name.find(form.kind) == std::string::npos) continue;
+        const long calls = sanitized ? call.weight / 10 : call.weight;
+        host.run(call, form.calls > 0 ? form.calls : calls, when, form.calls > 0);
+    }
 }
 
 // In a child, where the threads that the library had are not.
-void run_all_in_child(const CallFiles& files, long share, long asked_for) {
+void run_all_in_child(const CallFiles& files, const Form& form) {
     fflush(nullptr);
     int end = 0;
     const pid_t child = fork();
     if (child == 0) {
         failures = 0;
-        run_all(files, 1, "after fork", share, asked_for);
+        run_all(files, 1, "after fork", form);
+        run_all(files, 8, "8 threads after fork", form);
         fflush(nullptr);
         _exit(failures == 0 ? 0 : 1);
     }
@@ -138,14 +149,15 @@ void run_all_in_child(const CallFiles& files, long share, long asked_for) {
 
 int main(int argc, char** argv) {
     setvbuf(stdout, nullptr, _IOLBF, 0);
-    const long asked_for = argc > 1 ? atol(argv[1]) : 0;
-    const long share = sanitized ? 10 : 1;
+    Form form;
+    if (argc > 1 && (form.calls = atol(argv[1])) <= 0) return 2;
+    if (argc > 2) form.kind = argv[2];
     {
         const CallFiles files;
-        run_all(files, 1, "one thread", share, asked_for);
-        run_all(files, 8, "8 threads", share, asked_for);
-        // A sanitizer of threads does not let a child of several make any.
-        if (!sanitized) run_all_in_child(files, share, asked_for);
+        run_all(files, 1, "one thread", form);
+        run_all(files, 8, "8 threads", form);
+        // The sanitizer of threads does not let a child of several make any.
+        if (!sanitized) run_all_in_child(files, form);
     }
     return finish("growth");
 }
