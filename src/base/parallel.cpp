@@ -77,12 +77,16 @@ Parallel::Parallel(unsigned threads, Host host)
 
 // oneTBB would tell the same, but its first answer takes memory, and when that is refused no later question returns.
 unsigned Parallel::usable_threads() {
-    static const unsigned count = [] {
+    static std::atomic<unsigned> known{0}; // no guard, which a fork could leave locked
+    unsigned count = known.load(std::memory_order_relaxed);
+    if (count == 0) {
         cpu_set_t cpus;
-        if (sched_getaffinity(getpid(), sizeof cpus, &cpus) == 0) return static_cast<unsigned>(CPU_COUNT(&cpus));
-        return std::thread::hardware_concurrency(); // more processors than the set has room for
-    }();
-    return std::max(1u, count);
+        const bool is_told =
+            sched_getaffinity(getpid(), sizeof cpus, &cpus) == 0; // else more than the set has room for
+        count = std::max(1u, is_told ? static_cast<unsigned>(CPU_COUNT(&cpus)) : std::thread::hardware_concurrency());
+        known.store(count, std::memory_order_relaxed);
+    }
+    return count;
 }
 
 void Parallel::for_each(std::uint64_t count, const Task& task) const {

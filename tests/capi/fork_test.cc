@@ -91,6 +91,18 @@ int main() {
     }
     is_over = true;
     for (std::thread& thread : threads) thread.join();
+
+    // Or of a file being read.
+    is_over = false;
+    std::thread reader([&] {
+        while (!is_over) {
+            if (!callers[0]->load_mesh(files.meshes()[0])) ++wrong;
+        }
+    });
+    for (int i = 0; i < 100 && failures == 0; ++i)
+        CHECK(holds_in_child([&] { return caller.load_mesh(files.meshes()[0]); }));
+    is_over = true;
+    reader.join();
     CHECK(wrong == 0);
 
     CHECK(make_all(files, caller));
