@@ -1,5 +1,7 @@
 #include "base/scheduler.h"
 
+#include "base/thread_sanitizer.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,12 +16,33 @@
 namespace raywise {
 namespace {
 
+using Body = void (*)(void* data) noexcept;
+
+// run_on_threads, with what the thread sanitizer is to be told.
+void run(unsigned threads, std::uint64_t times, Body body, void* data) {
+    struct Loop {
+        Body body;
+        void* data;
+    } loop{body, data};
+    hand_over(&loop);
+    run_on_threads(
+        threads, times,
+        [](void* shared) noexcept {
+            take_over(shared);
+            const Loop& here = *static_cast<const Loop*>(shared);
+            here.body(here.data);
+            hand_over(shared);
+        },
+        &loop);
+    take_over(&loop);
+}
+
 void count(void* calls) noexcept { ++*static_cast<std::atomic<int>*>(calls); }
 
 void run_loops(unsigned threads, int loops) {
     for (int i = 0; i < loops; ++i) {
         std::atomic<int> calls{0};
-        run_on_threads(threads, threads, count, &calls);
+        run(threads, threads, count, &calls);
         EXPECT_EQ(calls.load(), static_cast<int>(threads));
     }
 }
@@ -56,7 +79,7 @@ TEST(Scheduler, HostThreadsDoNotWaitForEachOther) {
         ++here;
         while (here < hosts) std::this_thread::yield();
     };
-    run_on_hosts(hosts, [&] { run_on_threads(5, 1, wait_for_all, &inside); });
+    run_on_hosts(hosts, [&] { run(5, 1, wait_for_all, &inside); });
     EXPECT_EQ(inside.load(), hosts);
     EXPECT_EQ(kept_arenas(), before + hosts);
 }
@@ -65,7 +88,7 @@ void nest(void* depth_and_calls) noexcept {
     const auto* const in = static_cast<std::pair<int, std::atomic<int>*>*>(depth_and_calls);
     ++*in->second;
     std::pair<int, std::atomic<int>*> next{in->first - 1, in->second};
-    if (in->first > 0) run_on_threads(2, 2, nest, &next);
+    if (in->first > 0) run(2, 2, nest, &next);
 }
 
 TEST(Scheduler, LoopsMayBeWithinLoops) {
@@ -84,7 +107,7 @@ TEST(Scheduler, HasNoThreadsInTheChildOfAFork) {
     if (child == 0) {
         alarm(60);
         std::atomic<int> calls{0};
-        run_on_threads(2, 2, count, &calls);
+        run(2, 2, count, &calls);
         _exit(calls.load());
     }
     int end = -1;

@@ -55,7 +55,7 @@ public:
     // calls: in all. Prints nothing when they leave nothing behind, unless asked to tell.
     void run(const Call& call, long calls, const char* when, bool tell) {
         const auto count = static_cast<unsigned>(callers_.size());
-        const long each = std::max(20L, calls / static_cast<long>(count));
+        const long each = std::max(10L, calls / static_cast<long>(count));
         std::atomic<long> wrong{0};
         std::atomic<long> first_ns{0};
         std::atomic<long> last_ns{0};
@@ -125,7 +125,7 @@ void run_all(const CallFiles& files, unsigned host_threads, const char* when, co
     Host host(files, host_threads);
     for (const Call& call : all_calls(files)) {
         if (call.name.find(form.kind) == std::string::npos) continue;
-        const long calls = sanitized ? call.weight / 10 : call.weight;
+        const long calls = sanitized ? call.weight / 20 : call.weight;
         host.run(call, form.calls > 0 ? form.calls : calls, when, form.calls > 0);
     }
 }
