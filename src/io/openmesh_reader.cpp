@@ -16,6 +16,8 @@
 #include <new>
 #include <sstream>
 
+#include <pthread.h>
+
 namespace raywise::io {
 namespace {
 
@@ -141,11 +143,14 @@ bool run(FileKind kind, const std::filesystem::path& path, std::istream& stream,
     return false;
 }
 
+// OpenMesh is for one thread at a time. Whoever reads while another thread forks does not go on in the child, where the lock is new.
+std::mutex one_reader;
+[[maybe_unused]] const int after_fork = pthread_atfork(nullptr, nullptr, [] { new (&one_reader) std::mutex; });
+
 } // namespace
 
 RawMesh read_with_openmesh(FileKind kind, const std::filesystem::path& path, const std::string& text) {
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(one_reader);
     const Silence silence;
     const PlainNumbers numbers;
     RawMesh mesh;

@@ -20,6 +20,15 @@
  * - Handles (rw_scene, rw_view, rw_profile, rw_mesh) are counted: *_create and *_load hand out one
  *   reference, *_retain adds one, *_release gives one back; releasing NULL does nothing. Functions that
  *   take a const handle may run at the same time in any number of threads; others need the handle alone.
+ * - Threads of the library. The first commit, refit, view or batch that is worth it starts them: of 1,024 triangles, or 512 rays, or
+ *   more, with an option `threads` that is not 1 and no parallel_for. They are oneTBB's, at most one fewer than processors the process
+ *   may use, serve all calls, and stay, asleep while there is nothing to do. Single rays, smaller calls, and loading the library
+ *   start none. Calls of several threads of the host do not wait for each other (only mesh files are read one at a time).
+ * - Memory. What a call took is given back when it returns, whatever the number of calls before. Kept for the next one is the place in
+ *   which threads meet: for each value of `threads` in use as many as there were calls at once, 7 kB each and 2 kB for
+ *   each thread above two.
+ * - Fork. A child may go on with all that it inherits, except from within a callback. Where the parent had threads of the library, the
+ *   child has none and its calls work in the calling thread alone, or in a parallel_for; otherwise it starts its own.
  * - Rays. t is measured in units of the direction's length. A hit counts when tmin <= t <= tmax. A ray
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
  *   Components of a direction below 2^-500 of its largest, that one rounded down to a power of two, count as zero.
