@@ -2,21 +2,28 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "io/text_source.h"
 
 #include <system_error>
 
 namespace raywise::io {
 
-FileKind kind_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    for (char& c : ending) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+namespace {
+
+constexpr struct {
+    const char* ending;
+    FormatReader read;
+} formats[] = {{".obj", read_obj}, {".ply", read_ply}, {".off", read_off}, {".stl", read_stl}};
+
+} // namespace
+
+FormatReader reader_of(const std::filesystem::path& path) {
+    const std::string ending = path.extension().string();
+    for (const auto& format : formats) {
+        if (is_word(ending, format.ending)) return format.read;
     }
-    if (ending == ".obj") return FileKind::obj;
-    if (ending == ".ply") return FileKind::ply;
-    if (ending == ".off") return FileKind::off;
-    if (ending == ".stl") return FileKind::stl;
-    throw Error(Status::ERROR_FILE_FORMAT, "the ending \"" + ending + "\" is none of .obj, .ply, .off and .stl");
+    throw Error(Status::ERROR_FILE_FORMAT,
+                "the ending " + io::quoted(ending) + " is none of .obj, .ply, .off and .stl");
 }
 
 std::string read_file(const std::filesystem::path& path) {
