@@ -17,6 +17,16 @@ constexpr struct {
 
 } // namespace
 
+void require_plain_file(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) throw Error(Status::ERROR_FILE_NOT_FOUND, "there is no such file");
+    if (error) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be looked at: " + error.message());
+    // Opening a pipe could wait for ever.
+    if (!fs::is_regular_file(status)) throw Error(Status::ERROR_FILE_UNREADABLE, "is no plain file");
+}
+
 FormatReader reader_of(const std::filesystem::path& path) {
     const std::string ending = path.extension().string();
     for (const auto& format : formats) {
@@ -27,13 +37,6 @@ FormatReader reader_of(const std::filesystem::path& path) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) throw Error(Status::ERROR_FILE_NOT_FOUND, "there is no such file");
-    if (error) throw Error(Status::ERROR_FILE_UNREADABLE, "cannot be looked at: " + error.message());
-    // Opening a pipe could wait for ever.
-    if (!fs::is_regular_file(status)) throw Error(Status::ERROR_FILE_UNREADABLE, "is no plain file");
     std::string bytes;
     switch (read_whole(path, bytes)) {
         case ReadResult::complete:

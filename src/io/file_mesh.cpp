@@ -55,7 +55,7 @@ std::string FileMesh::take_ply() {
     return bytes;
 }
 
-std::string bad_polygon(std::uint64_t face, std::uint64_t corners) {
+std::string bad_polygon(std::uint64_t face, std::int64_t corners) {
     return "face " + std::to_string(face) + " has " + std::to_string(corners) +
            (corners == 1 ? " corner" : " corners") + ", it needs at least 3";
 }

@@ -42,7 +42,7 @@ private:
 inline constexpr std::uint64_t most_elements = 2147483646;
 
 // The reasons that several formats give.
-std::string bad_polygon(std::uint64_t face, std::uint64_t corners);
+std::string bad_polygon(std::uint64_t face, std::int64_t corners);
 std::string bad_index(std::uint64_t face, const std::string& index, std::uint64_t vertices);
 std::string too_many(const char* elements);
 

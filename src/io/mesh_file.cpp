@@ -19,7 +19,7 @@ public:
     Fans(LoadedMesh& mesh, std::uint64_t vertex_count) : mesh_(mesh), vertex_count_(vertex_count) {}
 
     void add(std::uint32_t face, const std::uint32_t* corners, std::size_t count) {
-        if (count < 3) throw Error(Status::ERROR_BAD_POLYGON, bad_polygon(face, count));
+        if (count < 3) throw Error(Status::ERROR_BAD_POLYGON, bad_polygon(face, static_cast<std::int64_t>(count)));
         for (std::size_t i = 0; i < count; ++i) {
             if (corners[i] < vertex_count_) continue;
             throw Error(Status::ERROR_INDEX_OUT_OF_RANGE, bad_index(face, std::to_string(corners[i]), vertex_count_));
@@ -61,8 +61,9 @@ LoadedMesh assemble(FileMesh file) {
 }
 
 FileMesh read(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path);
+    require_plain_file(path);
     const FormatReader reader = reader_of(path);
+    const std::string bytes = read_file(path);
     if (bytes.empty()) throw Error(Status::ERROR_FILE_FORMAT, "the file is empty");
     FileMesh mesh = reader(bytes);
     if (mesh.face_count() == 0) throw Error(Status::ERROR_NO_FACES, "the file has no faces");

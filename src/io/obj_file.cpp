@@ -28,7 +28,7 @@ public:
     FileMesh read() {
         bool known = false;
         for (std::string_view line; source_.take_line(line);) {
-            line = line.substr(0, line.find('#'));
+            line = without_comment(line);
             bool is_continued = take_backslash(line);
             std::string_view words = line;
             const std::string_view keyword = take_word(words);
@@ -45,7 +45,7 @@ public:
                 face(words);
             }
         }
-        if (!known) throw Error(Status::ERROR_FILE_FORMAT, "the file holds no line of an OBJ file");
+        if (!known) source_.fail(Status::ERROR_FILE_FORMAT, "the file holds no line of an OBJ file, down to its last");
         // Faces may come before their vertices.
         if (vertices_needed_ > mesh_.vertex_count()) {
             fail(Status::ERROR_INDEX_OUT_OF_RANGE,
@@ -65,7 +65,7 @@ private:
         statement_ = words;
         bool more = true;
         for (std::string_view line; more && source_.take_line(line);) {
-            line = line.substr(0, line.find('#'));
+            line = without_comment(line);
             more = take_backslash(line);
             statement_ += ' ';
             statement_ += line;
@@ -84,7 +84,9 @@ private:
         corners_.clear();
         for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
             corners_.push_back(corner(word));
-        if (corners_.size() < 3) fail(Status::ERROR_BAD_POLYGON, bad_polygon(mesh_.face_count(), corners_.size()));
+        if (corners_.size() < 3)
+            fail(Status::ERROR_BAD_POLYGON,
+                 bad_polygon(mesh_.face_count(), static_cast<std::int64_t>(corners_.size())));
         if (corners_.size() > most_elements) fail(Status::ERROR_TOO_MANY, too_many("corners"));
         mesh_.begin_face(static_cast<std::uint32_t>(corners_.size()));
         for (const std::uint32_t vertex : corners_) mesh_.add_corner(vertex);

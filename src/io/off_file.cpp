@@ -8,8 +8,12 @@
 namespace raywise::io {
 namespace {
 
-// What a keyword before OFF says that each vertex has beside its place: texture coordinates, a colour, a normal.
-constexpr std::string_view known_prefixes[] = {"st", "c", "n"};
+// What stands before OFF says what each vertex has beside its place: texture coordinates, a normal, or a colour of any length,
+// none included.
+constexpr struct {
+    std::string_view word;
+    int numbers; // at least
+} known_prefixes[] = {{"st", 2}, {"c", 0}, {"n", 3}};
 
 class OffReader {
 public:
@@ -44,7 +48,7 @@ private:
     // The next line that is not blank, without its comment.
     std::string_view row(const std::string& what_is_missing) {
         for (std::string_view line; source_.take_line(line);) {
-            line = line.substr(0, line.find('#'));
+            line = without_comment(line);
             std::string_view words = line;
             if (!take_word(words).empty()) return line;
         }
@@ -59,11 +63,12 @@ private:
         while (!is_word(rest.substr(0, 3), "off")) {
             has_dimension = rest.substr(0, 4) == "nOFF"; // in this one word upper and lower case differ
             if (has_dimension) break;
-            const auto* prefix =
-                std::find_if(std::begin(known_prefixes), std::end(known_prefixes),
-                             [rest](std::string_view known) { return is_word(rest.substr(0, known.size()), known); });
+            const auto* prefix = std::find_if(
+                std::begin(known_prefixes), std::end(known_prefixes),
+                [rest](const auto& known) { return is_word(rest.substr(0, known.word.size()), known.word); });
             if (prefix == std::end(known_prefixes)) break;
-            rest.remove_prefix(prefix->size());
+            rest.remove_prefix(prefix->word.size());
+            more_numbers_ += prefix->numbers;
         }
         if (has_dimension) rest.remove_prefix(1);
         if (rest.substr(0, 4) == "4OFF" || rest.substr(0, 5) == "4nOFF") fail_dimensions();
@@ -103,10 +108,16 @@ private:
         return *value;
     }
 
-    // The place comes first; whatever the keyword announces, and colours that it does not, follow.
+    // The place comes first; what the keyword announces, and colours that it does not, follow.
     void vertex() {
         std::array<double, 3> position{};
         for (double& x : position) x = coordinate64(source_, take_word(words_), "vertex", mesh_.vertex_count());
+        for (int i = 0; i < more_numbers_; ++i) {
+            if (!take_word(words_).empty()) continue;
+            source_.fail(Status::ERROR_FILE_FORMAT, "vertex " + std::to_string(mesh_.vertex_count()) + " has " +
+                                                        std::to_string(3 + i) + " numbers, the keyword announces " +
+                                                        std::to_string(3 + more_numbers_));
+        }
         mesh_.add_vertex(position);
     }
 
@@ -115,7 +126,8 @@ private:
         const std::uint64_t number = mesh_.face_count();
         const auto corners = number_of<std::uint64_t>(take_word(words_));
         if (!corners) fail_face(number, "the number of corners is missing");
-        if (*corners < 3) source_.fail(Status::ERROR_BAD_POLYGON, bad_polygon(number, *corners));
+        if (*corners < 3)
+            source_.fail(Status::ERROR_BAD_POLYGON, bad_polygon(number, static_cast<std::int64_t>(*corners)));
         if (*corners > most_elements) source_.fail(Status::ERROR_TOO_MANY, too_many("corners"));
         mesh_.begin_face(static_cast<std::uint32_t>(*corners));
         for (std::uint64_t i = 0; i < *corners; ++i) {
@@ -137,6 +149,7 @@ private:
     TextSource source_;
     FileMesh mesh_;
     std::string_view words_; // of the current row
+    int more_numbers_ = 0;   // of each vertex, behind its place
 };
 
 // Looked for first: what follows it is no text.

@@ -68,6 +68,7 @@ private:
                 }
             }
             mesh_.add_vertex(position);
+            values_.end_element();
         }
     }
 
@@ -82,15 +83,13 @@ private:
                     face(property, i);
                 }
             }
+            values_.end_element();
         }
     }
 
     void face(const PlyProperty& property, std::uint64_t number) {
         const std::int64_t count = values_.take_integer(property.count, "face", number);
-        if (count < 3) {
-            values_.fail(Status::ERROR_BAD_POLYGON,
-                         bad_polygon(number, static_cast<std::uint64_t>(std::max<std::int64_t>(count, 0))));
-        }
+        if (count < 3) values_.fail(Status::ERROR_BAD_POLYGON, bad_polygon(number, count));
         if (static_cast<std::uint64_t>(count) > most_elements)
             values_.fail(Status::ERROR_TOO_MANY, too_many("corners"));
         mesh_.begin_face(static_cast<std::uint32_t>(count));
@@ -134,6 +133,7 @@ private:
         const std::string name = quoted(element.name);
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (const PlyProperty& property : element.properties) values_.skip(property, name.c_str(), i);
+            values_.end_element();
         }
     }
 

@@ -45,9 +45,8 @@ public:
     explicit HeaderReader(std::string_view text) : rest_(text), size_(text.size()) {}
 
     PlyHeader read() {
-        do {
-            words_ = line();
-        } while (words_.find_first_not_of(" \t") == std::string_view::npos);
+        skip_blank_lines();
+        words_ = line();
         if (!is_word(take_word(words_), "ply") || !take_word(words_).empty()) fail("the file does not begin with ply");
         bool has_format = false;
         for (words_ = line();; words_ = line()) {
@@ -75,21 +74,22 @@ private:
         throw Error(Status::ERROR_FILE_FORMAT, reason + " (line " + std::to_string(header_.lines) + ")");
     }
 
-    // Every line of a header ends like the first, so that none of the numbers behind it is taken for part of its end.
+    void skip_blank_lines() {
+        while (!rest_.empty() && is_space(rest_.front())) {
+            const bool ends_line = rest_.front() == '\n' || (rest_.front() == '\r' && rest_.substr(0, 2) != "\r\n");
+            if (ends_line) ++header_.lines;
+            rest_.remove_prefix(1);
+        }
+        const std::size_t end = rest_.find_first_of("\r\n");
+        const bool is_return = end != std::string_view::npos && rest_[end] == '\r' && rest_.substr(end, 2) != "\r\n";
+        line_end_ = is_return ? '\r' : '\n';
+    }
+
+    // All lines end like the first, so that no number behind the header is taken for part of its end. CR is space before LF.
     std::string_view line() {
         if (rest_.empty()) fail("the file is truncated: the header has no end");
-        if (line_end_.empty()) {
-            const std::size_t end = rest_.find_first_of("\r\n");
-            line_end_ = end == std::string_view::npos    ? "\n"
-                        : rest_[end] == '\n'             ? "\n"
-                        : rest_.substr(end, 2) == "\r\n" ? "\r\n"
-                                                         : "\r";
-        }
         ++header_.lines;
-        const std::size_t end = rest_.find(line_end_);
-        std::string_view next = rest_.substr(0, end);
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + line_end_.size());
-        return next;
+        return take_before(rest_, line_end_);
     }
 
     void format() {
@@ -143,7 +143,7 @@ private:
 
     std::string_view rest_;
     std::size_t size_;
-    std::string_view line_end_;
+    char line_end_ = '\n';
     std::string_view words_; // of the current line
     PlyHeader header_;
 };

@@ -41,7 +41,11 @@ PlyValues::PlyValues(std::string_view file, const PlyHeader& header, std::size_t
       encoding_(header.encoding),
       next_byte_(first_byte + header.size),
       value_byte_(next_byte_) {
-    if (encoding_ == PlyEncoding::ascii) text_.emplace(rest_, header.lines + 1);
+    if (encoding_ != PlyEncoding::ascii) return;
+    text_.emplace(rest_, header.lines + 1);
+    std::uint64_t elements = 0;
+    for (const PlyElement& element : header.elements) elements += element.properties.empty() ? 0 : element.count;
+    has_rows_ = text_->count_rows() == elements;
 }
 
 double PlyValues::take_coordinate(const PlyProperty& property, std::uint64_t vertex) {
@@ -84,6 +88,12 @@ void PlyValues::skip(const PlyProperty& property, const char* element, std::uint
              std::string(element) + " " + std::to_string(number) + ": a list of negative length");
     }
     for (std::int64_t i = 0; i < count; ++i) take();
+}
+
+// Rows may hold more than the header tells. Files that break their lines elsewhere have to be taken word by word.
+void PlyValues::end_element() {
+    std::string_view rest;
+    if (has_rows_) text_->take_line(rest);
 }
 
 void PlyValues::fail(Status status, const std::string& reason) const {

@@ -20,6 +20,8 @@ public:
     double take_coordinate(const PlyProperty& property, std::uint64_t vertex);
     std::int64_t take_integer(const PlyType& type, const char* element, std::uint64_t number);
     void skip(const PlyProperty& property, const char* element, std::uint64_t number);
+    // Behind the last property of an element.
+    void end_element();
 
     // Throws Error with the reason, and the line or byte of the latest value.
     [[noreturn]] void fail(Status status, const std::string& reason) const;
@@ -34,6 +36,7 @@ private:
     PlyEncoding encoding_;
     std::size_t next_byte_;          // where rest_ begins in the file
     std::size_t value_byte_;         // where the latest value did
+    bool has_rows_ = false;          // an ASCII file with a line for each element
     std::optional<TextSource> text_; // of an ASCII file
 };
 

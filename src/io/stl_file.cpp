@@ -164,11 +164,11 @@ private:
         take();
         expect("loop");
         std::array<std::array<double, 3>, 3> corners{};
-        std::uint64_t count = 0;
+        std::int64_t count = 0;
         for (take(); is_word(word_, "vertex"); take(), ++count) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double x = coordinate64(source_, source_.take_word(), "face", mesh_.face_count());
-                if (count < 3) corners[count][axis] = x;
+                if (count < 3) corners[static_cast<std::size_t>(count)][axis] = x;
             }
         }
         if (!is_word(word_, "endloop"))
@@ -188,11 +188,14 @@ private:
 
 // A binary file may begin with the same word, but there is a zero byte in its count of facets or soon after it.
 bool is_ascii(std::string_view text) {
-    constexpr std::size_t start = 512;
-    std::string_view words = text.substr(0, start);
-    if (!is_word(take_word(words), "solid")) return false;
-    const std::size_t zero = text.substr(0, start).find('\0');
-    return zero == std::string_view::npos || text.find_first_not_of('\0', zero) == std::string_view::npos; // padding
+    constexpr std::size_t start_size = 512;
+    std::string_view rest = text;
+    const std::string_view word = take_word(rest);
+    if (!is_word(word, "solid")) return false;
+    const std::size_t zero = text.find('\0', static_cast<std::size_t>(word.data() - text.data()));
+    const bool in_start =
+        zero != std::string_view::npos && zero < static_cast<std::size_t>(rest.data() - text.data()) + start_size;
+    return !in_start || text.find_first_not_of('\0', zero) == std::string_view::npos; // padding
 }
 
 } // namespace

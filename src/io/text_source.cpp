@@ -32,6 +32,12 @@ bool is_word(std::string_view word, std::string_view lower_case) {
     });
 }
 
+std::string_view without_comment(std::string_view line) {
+    std::size_t mark = line.find('#');
+    while (mark != std::string_view::npos && mark > 0 && line[mark - 1] == '.') mark = line.find('#', mark + 1);
+    return line.substr(0, mark);
+}
+
 std::string_view without_byte_order_mark(std::string_view bytes) {
     for (const auto& mark : byte_order_marks) {
         if (bytes.substr(0, mark.bytes.size()) != mark.bytes) continue;
@@ -65,6 +71,13 @@ bool TextSource::take_line(std::string_view& line) {
     position_ = end;
     skip_line_end();
     return true;
+}
+
+std::uint64_t TextSource::count_rows() const {
+    TextSource ahead(*this);
+    std::uint64_t rows = 0;
+    for (std::string_view line; ahead.take_line(line);) rows += std::all_of(line.begin(), line.end(), is_space) ? 0 : 1;
+    return rows;
 }
 
 std::string_view TextSource::take_word() {

@@ -18,6 +18,10 @@ std::string quoted(std::string_view word);
 // Whether they are the same but for upper and lower case.
 bool is_word(std::string_view word, std::string_view lower_case);
 
+// The line without the comment that # begins. Not so in 1.#IND and 1.#INF, which are what some programs write for NaN and
+// infinity.
+std::string_view without_comment(std::string_view line);
+
 // The file without a UTF-8 byte order mark. Throws Error(ERROR_FILE_FORMAT) for text in UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view bytes);
 
@@ -30,6 +34,8 @@ public:
 
     // The next line, without its end. False at the end of the text.
     bool take_line(std::string_view& line);
+    // How many lines from here on are not blank.
+    std::uint64_t count_rows() const;
     // The next word of this or a later line; empty at the end of the text.
     std::string_view take_word();
     // The next word, if there is one before the line ends.

@@ -44,6 +44,15 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+// What the vertices are given in; null where there are none.
+const char* precision_of(const Primitives& primitives) {
+    bool float32 = false;
+    bool float64 = false;
+    for (const auto& mesh : primitives.meshes()) (mesh->is_float32() ? float32 : float64) = true;
+    if (float32 && float64) return "float32 and float64";
+    return float32 ? "float32" : float64 ? "float64" : nullptr;
+}
+
 // At most 22 columns, which is what the table leaves of 100. "above": better above so many.
 std::string remark(const CandidateReport& candidate) {
     if (candidate.forced) return "forced";
@@ -87,6 +96,8 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
         plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
     text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
+    const char* const precision = precision_of(tracer.primitives());
+    if (precision != nullptr) text += std::string("vertices: ") + precision + "\n";
     text +=
         format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
     text += profile.status == Status::OK ? std::string("\n") : " (" + profile.reason + ")\n";
@@ -128,6 +139,11 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     json.open_object();
     json.put("triangles", tracer.primitives().count());
     json.put("hittable_triangles", tracer.primitives().hittable_count());
+    if (const char* const precision = precision_of(tracer.primitives())) {
+        json.put("vertices", precision);
+    } else {
+        json.put_null("vertices");
+    }
     if (plan.workload.rays) {
         json.put("expected_rays", *plan.workload.rays);
     } else {

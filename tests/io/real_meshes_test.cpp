@@ -49,7 +49,6 @@ TEST(RealMeshes, WoodyIsFlat) {
         upper = std::max(upper, mesh.coordinate(i));
     }
     EXPECT_EQ(lower, upper);
-    EXPECT_FALSE(mesh.is_float64()) << "halves, which float32 holds";
 }
 
 // Lines that begin with v and f, counted by themselves.

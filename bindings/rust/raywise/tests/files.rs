@@ -30,7 +30,20 @@ fn polygons_are_cut_into_fans_and_remember_their_face() -> Result {
         assert_eq!((mesh.triangle_count(), mesh.face_count()), (4, 3), "{name}");
         assert_eq!(mesh.face_of_triangle(), [0, 0, 1, 2], "{name}");
         assert_eq!(mesh.clone().triangles().len(), 4, "{name}");
+        assert!(!mesh.is_float64(), "{name}");
     }
+    Ok(())
+}
+
+#[test]
+fn coordinates_are_as_written() -> Result {
+    let path = file(
+        "utm.obj",
+        "v 500000.1 5183526.3 100.25\nv 500000.2 5183526.3 100.25\nv 500000.2 5183526.4 100.25\nf 1 2 3\n",
+    );
+    let mesh = Mesh::load(path)?;
+    assert!(mesh.is_float64());
+    assert_eq!(mesh.vertices()[2], [500000.2, 5183526.4, 100.25]);
     Ok(())
 }
 
