@@ -34,6 +34,12 @@ void FileMesh::begin_face(std::uint32_t corners) {
     ++face_count_;
 }
 
+void FileMesh::add_facet(const std::array<std::array<double, 3>, 3>& corners) {
+    for (const auto& corner : corners) add_vertex(corner);
+    ++face_count_;
+    has_facets_ = true;
+}
+
 std::string FileMesh::take_ply() {
     const std::string type = fits_float32_ ? "float" : "double";
     std::string bytes = std::string("ply\nformat binary_") + (is_little_endian() ? "little" : "big") +

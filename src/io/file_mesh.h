@@ -20,11 +20,15 @@ public:
     // Followed by as many add_corner.
     void begin_face(std::uint32_t corners);
     void add_corner(std::uint32_t vertex) { face_numbers_.push_back(vertex); }
+    // A face with three vertices of its own, in a file that has no others.
+    void add_facet(const std::array<std::array<double, 3>, 3>& corners);
 
     std::uint64_t vertex_count() const { return coordinates_.size() / 3; }
     std::uint64_t face_count() const { return face_count_; }
     const std::vector<double>& coordinates() const { return coordinates_; } // x, y, z of each vertex
     std::vector<double> take_coordinates() { return std::move(coordinates_); }
+    // Whether they all are facets: nothing of them is left to be read then.
+    bool has_facets() const { return has_facets_; }
     // Whether float32 holds every coordinate as it is.
     bool fits_float32() const { return fits_float32_; }
 
@@ -35,6 +39,7 @@ private:
     std::vector<double> coordinates_;
     std::vector<std::uint32_t> face_numbers_; // of each face how many corners, and which
     std::uint64_t face_count_ = 0;
+    bool has_facets_ = false;
     bool fits_float32_ = true;
 };
 

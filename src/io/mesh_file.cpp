@@ -5,6 +5,7 @@
 #include "io/openmesh_reader.h"
 
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -37,7 +38,24 @@ private:
     std::uint64_t vertex_count_;
 };
 
-LoadedMesh assemble(FileMesh file) {
+// OpenMesh's reader of such files would merge corners that are near each other and drop facets.
+LoadedMesh assemble_facets(FileMesh file) {
+    LoadedMesh mesh;
+    mesh.face_count = static_cast<std::uint32_t>(file.face_count());
+    mesh.indices.resize(file.vertex_count());
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    mesh.face_of_triangle.resize(mesh.face_count);
+    std::iota(mesh.face_of_triangle.begin(), mesh.face_of_triangle.end(), 0u);
+    std::vector<double> coordinates = file.take_coordinates();
+    if (file.fits_float32()) {
+        mesh.vertices = std::vector<float>(coordinates.begin(), coordinates.end());
+    } else {
+        mesh.vertices = std::move(coordinates);
+    }
+    return mesh;
+}
+
+LoadedMesh assemble_polygons(FileMesh file) {
     RawMesh raw = read_with_openmesh(file.take_ply());
     if (raw.vertices.size() != file.coordinates().size() || raw.face_count() != file.face_count()) {
         throw Error(Status::ERROR_FILE_FORMAT,
@@ -74,7 +92,8 @@ FileMesh read(const std::filesystem::path& path) {
 
 LoadedMesh load_mesh(const std::filesystem::path& path) {
     try {
-        return assemble(read(path));
+        FileMesh file = read(path);
+        return file.has_facets() ? assemble_facets(std::move(file)) : assemble_polygons(std::move(file));
     } catch (const Error& error) {
         throw Error(error.status(), path.u8string() + ": " + error.what());
     }

@@ -20,14 +20,6 @@ std::uint32_t little_endian(std::string_view bytes) {
     return value;
 }
 
-// Three vertices of its own for each facet, as the file has them.
-void add_facet(FileMesh& mesh, const std::array<std::array<double, 3>, 3>& corners) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
-    for (const auto& corner : corners) mesh.add_vertex(corner);
-    mesh.begin_face(3);
-    for (std::uint32_t i = 0; i < 3; ++i) mesh.add_corner(first + i);
-}
-
 // ---- binary ---------------------------------------------------------------------------------------
 
 void binary_facet(FileMesh& mesh, std::string_view bytes, std::size_t at) {
@@ -47,7 +39,7 @@ void binary_facet(FileMesh& mesh, std::string_view bytes, std::size_t at) {
             corners[c][axis] = static_cast<double>(value);
         }
     }
-    add_facet(mesh, corners);
+    mesh.add_facet(corners);
 }
 
 // What the two bytes behind a facet count, in files that have something there.
@@ -177,7 +169,7 @@ private:
         if (count > 3) fail("it has " + std::to_string(count) + " corners instead of 3");
         take();
         expect("endfacet");
-        add_facet(mesh_, corners);
+        mesh_.add_facet(corners);
     }
 
     TextSource source_;
@@ -200,7 +192,7 @@ bool is_ascii(std::string_view text) {
 
 } // namespace
 
-// OpenMesh's reader merges corners that are near each other and drops facets. Binary where the size fits the count of facets,
+// Binary where the size fits the count of facets,
 // whatever the first word says.
 FileMesh read_stl(std::string_view bytes) {
     const std::uint32_t counted = bytes.size() >= head_size ? little_endian(bytes.substr(80, 4)) : 0;
