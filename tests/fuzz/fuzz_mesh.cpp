@@ -108,9 +108,12 @@ void compare(const rw_scene* judge, const rw_scene* scene, const char* structure
     Outcome("intersect").check(rw_scene_intersect(judge, &ray, &wanted));
     Outcome("intersect").check(rw_scene_intersect(scene, &ray, &found));
     if (std::memcmp(&wanted, &found, sizeof found) == 0) return;
-    fail("%s: the judge says t %a primitive %u, it says t %a primitive %u; ray {{%a, %a, %a}, %a, {%a, %a, %a}, %a}",
-         structure, wanted.t, wanted.primitive, found.t, found.primitive, ray.origin[0], ray.origin[1], ray.origin[2],
-         ray.tmin, ray.direction[0], ray.direction[1], ray.direction[2], ray.tmax);
+    fail(
+        "%s: the judge says t %a u %a v %a primitive %u, it says t %a u %a v %a primitive %u; ray {{%a, %a, %a}, %a, "
+        "{%a, %a, %a}, %a}",
+        structure, wanted.t, wanted.u, wanted.v, wanted.primitive, found.t, found.u, found.v, found.primitive,
+        ray.origin[0], ray.origin[1], ray.origin[2], ray.tmin, ray.direction[0], ray.direction[1], ray.direction[2],
+        ray.tmax);
 }
 
 // At the corners and the middles of the first triangles, along an axis and from the origin.

@@ -1,8 +1,9 @@
 // Files that are damaged, or no mesh at all: every outcome is a mesh that can be used, or an Error that says where and why.
 #include "io/mesh_files.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <regex>
 
 #include <sys/stat.h>
 
@@ -26,8 +27,6 @@ class BadFiles : public MeshFiles {
 protected:
     // Loads what may be anything. An Error has to say which file, why, and where.
     void expect_a_mesh_or_a_message(const std::string& name, const std::string& content) {
-        static const std::regex message(".*/" + std::string("[abc]\\.[a-z]+: .*[a-z].*"));
-        static const std::regex place(".* \\((line|byte) [0-9]+(, where [a-z ]+)?\\)");
         try {
             const LoadedMesh mesh = load(name, content);
             ++loaded_;
@@ -37,9 +36,12 @@ protected:
             for (std::size_t i = 0; i < 3 * mesh.vertex_count(); ++i) ASSERT_TRUE(std::isfinite(mesh.coordinate(i)));
         } catch (const Error& error) {
             ++refused_;
-            ASSERT_TRUE(std::regex_match(error.what(), message)) << error.what();
-            const bool of_the_whole = error.status() == Status::ERROR_NO_FACES || content.empty();
-            ASSERT_TRUE(of_the_whole || std::regex_match(error.what(), place)) << error.what();
+            const std::string message = error.what();
+            ASSERT_NE(message.find(name + ": "), std::string::npos) << message;
+            ASSERT_GT(message.size(), message.find(name) + name.size() + 10) << message;
+            if (error.status() == Status::ERROR_NO_FACES || content.empty()) return; // faults of the whole file
+            const std::size_t place = std::max(message.rfind(" (line ") + 1, message.rfind(" (byte ") + 1);
+            ASSERT_TRUE(place > 0 && message.back() == ')' && std::isdigit(message[place + 6]) != 0) << message;
         }
     }
 
