@@ -192,8 +192,7 @@ bool is_ascii(std::string_view text) {
 
 } // namespace
 
-// Binary where the size fits the count of facets,
-// whatever the first word says.
+// Binary where the size fits the count of facets, whatever the first word says.
 FileMesh read_stl(std::string_view bytes) {
     const std::uint32_t counted = bytes.size() >= head_size ? little_endian(bytes.substr(80, 4)) : 0;
     const bool fits = bytes.size() >= head_size && bytes.size() == head_size + facet_size * std::uint64_t{counted};

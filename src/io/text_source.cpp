@@ -100,9 +100,8 @@ std::string_view TextSource::take_word_of_line() {
 }
 
 std::string_view TextSource::peek_word_of_line() const {
-    std::string_view rest = text_.substr(position_);
-    rest = rest.substr(0, rest.find_first_of("\r\n"));
-    return raywise::take_word(rest);
+    TextSource ahead(*this);
+    return ahead.take_word_of_line();
 }
 
 void TextSource::fail(Status status, const std::string& reason) const {

@@ -189,14 +189,19 @@ TEST_F(BadFiles, OfMegabytesInOneLineOrInManyShortOnes) {
         expect_square(load("a.ply", lines + square_ply));
         EXPECT_EQ(load("a.stl", lines + facet_stl).face_count, 1u);
     }
+    const std::string facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0.5 endloop endfacet ";
     std::string facets = "solid ";
+    std::string solids;
     std::string statements = "v 0 0 0 \\\n\rv 1 0 0\rv 0 1 0\r";
     std::uint32_t count = 0;
     for (; facets.size() < size; ++count) {
-        facets += "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0.5 endloop endfacet ";
+        facets += facet;
+        solids += "solid a " + facet + "endsolid a ";
         statements += "f 1 2 3\r";
     }
     EXPECT_EQ(load("a.stl", facets + "endsolid").face_count, count);
+    EXPECT_EQ(load("a.stl", solids).face_count, count);
     EXPECT_EQ(load("a.obj", statements).face_count, count);
 }
 
