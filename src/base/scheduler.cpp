@@ -2,7 +2,7 @@
 // would see the half that is in headers, and take every task for a race. base/parallel.cpp tells it what comes after what.
 //
 // Nothing here waits for another of the host's threads, and no lock is held, so that none can be left locked in the child of a
-// fork (docs/decisions/0015).
+// fork (docs/decisions/0018).
 #include "base/scheduler.h"
 
 #include <tbb/parallel_for.h>

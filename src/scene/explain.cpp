@@ -14,6 +14,15 @@ constexpr const char* rule_names[] = {"smallest_total", "hapala"};
 constexpr const char* kind_names[] = {"any kind", "random", "camera", "shadow", "diffuse"};
 constexpr const char* source_names[] = {"generic", "path", "environment", "user", "system"};
 
+// What the vertices are given in; null where there are none.
+const char* precision_of(const Primitives& primitives) {
+    bool float32 = false;
+    bool float64 = false;
+    for (const auto& mesh : primitives.meshes()) (mesh->is_float32() ? float32 : float64) = true;
+    if (float32 && float64) return "float32 and float64";
+    return float32 ? "float32" : float64 ? "float64" : nullptr;
+}
+
 // At most 22 columns, which is what the table leaves of 100. "above": better above so many.
 std::string remark(const CandidateReport& candidate) {
     if (candidate.forced) return "forced";
@@ -57,6 +66,8 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
                                : std::string("number of rays unknown");
     text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
+    const char* const precision = precision_of(tracer.primitives());
+    if (precision != nullptr) text += std::string("vertices: ") + precision + "\n";
     text += std::string("calibration: ") + source_names[static_cast<int>(profile.source)] + ", measured " +
             profile.provenance.date + "\n";
     if (!profile.path.empty()) text += "profile: " + profile.path + "\n"; // of any length
@@ -100,6 +111,11 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     json.open_object();
     json.put("triangles", tracer.primitives().count());
     json.put("hittable_triangles", tracer.primitives().hittable_count());
+    if (const char* const precision = precision_of(tracer.primitives())) {
+        json.put("vertices", precision);
+    } else {
+        json.put_null("vertices");
+    }
     if (plan.workload.rays) {
         json.put("expected_rays", *plan.workload.rays);
     } else {

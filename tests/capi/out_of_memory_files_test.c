@@ -57,7 +57,8 @@ static int32_t read_mesh(const char *name, uint64_t *sum) {
     t.struct_size = sizeof t;
     CHECK_OK(rw_mesh_triangles(mesh, &t));
     CHECK_OK(rw_mesh_faces(mesh, &faces, &count));
-    *sum = digest(count, t.vertices.data, (size_t)t.vertex_count * 3 * sizeof(float));
+    *sum = digest(count, t.vertices.data,
+                  (size_t)t.vertex_count * 3 * (t.vertices.type == RW_FLOAT64 ? sizeof(double) : sizeof(float)));
     *sum = digest(*sum, t.indices.data, (size_t)t.triangle_count * 3 * sizeof(uint32_t));
     *sum = digest(*sum, faces, (size_t)t.triangle_count * sizeof(uint32_t));
     CHECK_OK(rw_mesh_release(mesh));

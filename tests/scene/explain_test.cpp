@@ -40,6 +40,7 @@ TEST(Explain, JsonSaysWhatThePlanSays) {
     const auto json = nlohmann::json::parse(explain_json(scene->plan(), scene->tracer(), *scene->profile()));
     EXPECT_EQ(json.at("expected_rays"), 123456);
     EXPECT_EQ(json.at("triangles"), 1000);
+    EXPECT_EQ(json.at("vertices"), "float32");
     EXPECT_EQ(json.at("chosen"), name_of(scene->plan().chosen));
     ASSERT_EQ(json.at("candidates").size(), structure_count);
     for (const Structure structure : all_structures()) {

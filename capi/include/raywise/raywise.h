@@ -290,7 +290,9 @@ typedef struct rw_mesh rw_mesh;
  * outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
  * area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
  * corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
- * path: UTF-8, not NULL; the ending tells the format.
+ * Vertices and faces are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any,
+ * else all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has more.
+ * path: UTF-8, or whatever bytes the system names the file by; not NULL; the ending tells the format.
  * mesh: receives a mesh the caller must release; not NULL.
  * Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,
  * RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY,
@@ -304,7 +306,8 @@ RW_API int32_t rw_mesh_retain(const rw_mesh *mesh);
 RW_API int32_t rw_mesh_release(const rw_mesh *mesh);
 
 /* Does: describes the arrays of a mesh, ready for rw_scene_add_triangles.
- * mesh: not NULL. triangles: struct_size set; receives pointers into the mesh.
+ * mesh: not NULL. triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
+ * depends on the file (see rw_mesh_load); indices.type is RW_UINT32.
  * Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED) needs
  * the mesh to be kept. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_mesh_triangles(const rw_mesh *mesh, rw_triangles *triangles);
@@ -692,7 +695,8 @@ RW_API int32_t rw_scene_candidate_count(const rw_scene *scene, uint32_t *count);
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_get_candidate(const rw_scene *scene, uint32_t index, rw_candidate *candidate);
 
-/* Does: explains the choice: scene, profile, each candidate with predicted and actual build time, ns per ray and bytes.
+/* Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build time, ns per
+ * ray and bytes.
  * Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_explain(const rw_scene *scene, int32_t format, char *buffer, uint64_t capacity,
                                 uint64_t *needed);

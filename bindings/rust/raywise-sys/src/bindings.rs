@@ -1627,7 +1627,9 @@ cover the inside once and nothing else, also with holes that are joined to the o
 outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
 area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
 corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
-path: UTF-8, not NULL; the ending tells the format.
+Vertices and faces are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any,
+else all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has more.
+path: UTF-8, or whatever bytes the system names the file by; not NULL; the ending tells the format.
 mesh: receives a mesh the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,
 RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY,
@@ -1645,7 +1647,8 @@ RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1.
     /**
 ```text
 Does: describes the arrays of a mesh, ready for rw_scene_add_triangles.
-mesh: not NULL. triangles: struct_size set; receives pointers into the mesh.
+mesh: not NULL. triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
+depends on the file (see rw_mesh_load); indices.type is RW_UINT32.
 Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED) needs
 the mesh to be kept. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
@@ -1988,7 +1991,8 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any.
     ) -> i32;
     /**
 ```text
-Does: explains the choice: scene, profile, each candidate with predicted and actual build time, ns per ray and bytes.
+Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build time, ns per
+ray and bytes.
 Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1.
 ```
 */
