@@ -77,6 +77,13 @@ bench-rust: ## speed beside Rust crates; build/reports/bench-rust.json [QUICK=1]
 	@tools/setup.sh bench bench-rust
 	@tools/bench.sh rust
 
+.PHONY: growth
+growth: ## whether very many calls leave anything behind [CALLS=1000000] [KIND='commit, bvh']
+	@tools/setup.sh native
+	cmake --preset dev >/dev/null
+	cmake --build --preset dev --target capi_growth_test
+	RAYWISE_CALIBRATION=builtin build/dev/tests/capi/capi_growth_test $(or $(CALLS),1000000) "$(KIND)"
+
 .PHONY: contract
 contract: ## the correctness contract: hard cases and long sweeps [QUICK=1] [SEED=N]
 	@tools/setup.sh native

@@ -40,13 +40,13 @@ int run_check(const CheckOptions& options);
 
 struct ExplainOptions {
     std::string mesh;
-    std::uint64_t rays = 0; // RW_RAYS_UNKNOWN when not known
+    std::uint64_t rays = 0; // RW_RAYS_UNKNOWN when not known; 0: a table of many numbers
     std::int32_t kind = 0;  // RW_RAYS_
     bool json = false;
 };
 int run_explain(const ExplainOptions& options);
 
-// "raywise-calibrate 0.1.0"
+// "raywise-calibrate 0.2.0"
 std::string tool_name();
 
 // A line on standard error: "raywise-calibrate: message".

@@ -115,9 +115,11 @@ CLI::App* add_explain(CLI::App& app, ExplainOptions& options, std::string& rays)
                                                        {"diffuse", RW_RAYS_DIFFUSE}};
     CLI::App* command = app.add_subcommand("explain", "what would the library build for a mesh, and why?");
     command->add_option("mesh", options.mesh, "an OBJ, PLY, OFF or STL file")->type_name("MESH")->required();
-    command->add_option("--rays", rays, "how many rays are expected: a number, or \"unknown\"")
-        ->type_name("N")
-        ->required();
+    command
+        ->add_option(
+            "--rays", rays,
+            "how many rays are expected: a number, or \"unknown\";\nwithout it: what is chosen for 1, 10 ... 10^8 rays")
+        ->type_name("N");
     command->add_option("--kind", options.kind, "any, random, camera, shadow or diffuse (default any)")
         ->type_name("KIND")
         ->transform(CLI::CheckedTransformer(kinds).description(""));

@@ -10,6 +10,7 @@ namespace raywise::capi {
 namespace {
 
 Error bad_argument(const std::string& message) { return {Status::ERROR_INVALID_ARGUMENT, message}; }
+Error bad_strides(const std::string& message) { return {Status::ERROR_OVERLAP, message}; }
 
 // The type an array has, 0 standing for the usual one. `allowed` lists what the place takes, the usual one first.
 Scalar read_type(std::int32_t type, const std::vector<std::int32_t>& allowed, const std::string& name) {
@@ -66,8 +67,14 @@ bool overlaps(const Strides& strides, std::size_t scalar_size, std::uint64_t cou
 
 } // namespace
 
+void read_reserved(std::int32_t reserved, const std::string& name) {
+    if (reserved != 0)
+        throw Error(Status::ERROR_RESERVED, name + ".reserved: it is " + std::to_string(reserved) + ", not 0");
+}
+
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
                         const std::string& name) {
+    read_reserved(array.reserved, name);
     if (array.data == nullptr) {
         if (required && count > 0)
             throw bad_argument(name + ": data is NULL for " + std::to_string(count) + " elements");
@@ -85,15 +92,16 @@ StridedArray read_array(const rw_array& array, std::uint64_t count, int componen
 
 OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
                         const std::string& name) {
+    read_reserved(output.reserved, name);
     if (output.data == nullptr) return {};
     OutputArray result;
     result.scalar = kind == OutputKind::numbers ? read_type(output.type, {RW_FLOAT32, RW_FLOAT64}, name)
                     : kind == OutputKind::ids   ? read_type(output.type, {RW_UINT32, RW_UINT64}, name)
                                                 : read_type(output.type, {RW_UINT8, RW_UINT32, RW_UINT64}, name);
     const Strides strides = read_strides(output.stride, output.component_stride, result.scalar, components);
-    if (output.stride == RW_REPEAT) throw bad_argument(name + ": RW_REPEAT would write every answer to one place");
+    if (output.stride == RW_REPEAT) throw bad_strides(name + ": RW_REPEAT would write every answer to one place");
     if (overlaps(strides, size_of(result.scalar), count, components))
-        throw bad_argument(name + ": its strides let elements overlap");
+        throw bad_strides(name + ": its strides let elements overlap");
     result.data = static_cast<std::byte*>(output.data);
     result.stride = strides.stride;
     result.component_stride = strides.component_stride;

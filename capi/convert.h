@@ -69,6 +69,9 @@ void write_struct(T* target, const char* name, T value) {
     std::memcpy(target, &value, std::min<std::size_t>(value.struct_size, sizeof value));
 }
 
+// A member kept for later versions.
+void read_reserved(std::int32_t reserved, const std::string& name);
+
 enum class Elements {
     numbers,
     indices

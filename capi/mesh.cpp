@@ -27,8 +27,9 @@ std::int32_t rw_mesh_triangles(const rw_mesh* mesh, rw_triangles* triangles) {
         const LoadedMesh& m = *required(mesh, "mesh").value;
         rw_triangles description{};
         description.vertex_count = m.vertex_count();
-        description.vertices.data = m.vertices.data();
-        description.vertices.type = RW_FLOAT32;
+        description.vertices.data =
+            std::visit([](const auto& coordinates) -> const void* { return coordinates.data(); }, m.vertices);
+        description.vertices.type = m.is_float64() ? RW_FLOAT64 : RW_FLOAT32;
         description.triangle_count = m.triangle_count();
         description.indices.data = m.indices.data();
         description.indices.type = RW_UINT32;

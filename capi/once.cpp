@@ -1,5 +1,6 @@
 // One shot: meshes and rays in, answers out, nothing kept.
 #include "query.h"
+#include "shared_memory.h"
 
 using namespace raywise;
 using namespace raywise::capi;
@@ -9,7 +10,7 @@ namespace {
 // A committed scene over the caller's arrays, planned for exactly these rays.
 Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
                  const rw_once_options& options, const rw_query_options& query) {
-    Scene scene(options.profile != nullptr ? options.profile->value : std::make_shared<const Profile>(find_profile()));
+    Scene scene(options.profile != nullptr ? options.profile->value : kept_profile());
     for_each_mesh(meshes, mesh_count, [&](const rw_triangles& mesh, const std::string&) {
         scene.add_triangles(read_triangles(mesh), false, (mesh.flags & RW_TRIANGLES_SKIP_INVALID) != 0);
     });
@@ -34,7 +35,11 @@ std::int32_t rw_once_intersect(const rw_triangles* meshes, std::uint32_t mesh_co
         const rw_once_options o = read_optional_struct(options, "options");
         const rw_query_options query = read_optional_struct(o.query, "options.query");
         // Below it is the caller's struct that is handed on: the copy says the caller's size and is not as large.
-        read_hits(hits, read_rays(rays, "rays").count); // a wrong output is told before the work is done
+        // A wrong output is told before the work is done.
+        const std::uint64_t count = read_rays(rays, "rays").count;
+        BatchMemory outputs;
+        outputs.writes(read_hits(hits, count), count);
+        outputs.refuse_shared();
         intersect_batch(make_scene(meshes, mesh_count, rays, o, query).tracer(), rays, hits, o.query);
     });
 }

@@ -10,7 +10,7 @@ extern "C" {
 std::int32_t rw_profile_load(const char* path, rw_profile** profile) {
     return guard([&] {
         rw_profile*& out = required(profile, "profile");
-        auto loaded = std::make_shared<const Profile>(path != nullptr ? load_profile(path) : find_profile());
+        auto loaded = path != nullptr ? std::make_shared<const Profile>(load_profile(path)) : kept_profile();
         if (loaded->status != Status::OK) set_last_error(loaded->reason.c_str());
         const Status status = loaded->status;
         out = new rw_profile(std::move(loaded));

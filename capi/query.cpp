@@ -1,6 +1,7 @@
 #include "query.h"
 
 #include "scene/explain.h"
+#include "shared_memory.h"
 
 namespace raywise::capi {
 namespace {
@@ -13,6 +14,14 @@ RayArrays read_checked_rays(const rw_rays* rays, const Tracer& tracer) {
     RayArrays arrays = read_rays(rays, "rays");
     arrays.skip.check(arrays.count, tracer.primitives());
     return arrays;
+}
+
+// What every batch reads and writes.
+BatchMemory memory_of(const RayArrays& rays, const rw_query_options& options) {
+    BatchMemory memory;
+    memory.reads(rays);
+    memory.writes("options.invalid_rays", options.invalid_rays, 1);
+    return memory;
 }
 
 void report_invalid(const rw_query_options& options, std::uint64_t invalid) {
@@ -57,6 +66,9 @@ void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* h
     const RayArrays in = read_checked_rays(rays, tracer);
     const HitArrays out = read_hits(hits, in.count);
     const rw_query_options o = read_optional_struct(options, "options");
+    BatchMemory memory = memory_of(in, o);
+    memory.writes(out, in.count);
+    memory.refuse_shared();
     report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o)));
 }
 
@@ -66,6 +78,9 @@ void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* 
     const OutputArray out = read_output(required(answers, "occluded"), in.count, 1, OutputKind::flags, "occluded");
     if (!out.wanted() && in.count > 0) throw Error(Status::ERROR_INVALID_ARGUMENT, "occluded: data is NULL");
     const rw_query_options o = read_optional_struct(options, "options");
+    BatchMemory memory = memory_of(in, o);
+    memory.writes("occluded", out, in.count, 1);
+    memory.refuse_shared();
     report_invalid(o, raywise::occluded_batch(tracer, in, out, read_query_parallel(o)));
 }
 
@@ -76,6 +91,11 @@ void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
     const HitArrays out = hits != nullptr ? read_hits(hits, capacity) : HitArrays{};
     const rw_query_options o = read_optional_struct(options, "options");
+    BatchMemory memory = memory_of(in, o);
+    memory.writes("offsets", offsets, in.count + 1);
+    memory.writes("needed", needed, 1);
+    memory.writes(out, capacity);
+    memory.refuse_shared();
     std::uint64_t count = 0;
     report_invalid(o, raywise::intersect_all_batch(tracer, in, offsets, out, capacity, count, read_query_parallel(o)));
     if (needed != nullptr) *needed = count;

@@ -12,7 +12,7 @@ extern "C" {
 std::int32_t rw_scene_create(const rw_profile* profile, rw_scene** scene) {
     return guard([&] {
         rw_scene*& out = required(scene, "scene");
-        auto constants = profile != nullptr ? profile->value : std::make_shared<const Profile>(find_profile());
+        auto constants = profile != nullptr ? profile->value : kept_profile();
         out = new rw_scene(std::make_shared<Scene>(std::move(constants)));
     });
 }

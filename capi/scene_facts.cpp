@@ -1,5 +1,6 @@
 // What a committed scene is, and the structures there are.
 #include "accel/uniform_grid.h"
+#include "base/shared_bytes.h"
 #include "convert.h"
 #include "guard.h"
 
@@ -26,8 +27,11 @@ std::int32_t rw_structure_name(std::uint32_t index, const char** name) {
 std::int32_t rw_scene_bounds(const rw_scene* scene, double* lower, double* upper) {
     return guard([&] {
         const Box& bounds = required(scene, "scene").value->tracer().primitives().bounds();
-        required(lower, "lower");
-        required(upper, "upper");
+        const auto layout = [](const double& first) {
+            return ByteLayout{reinterpret_cast<std::uintptr_t>(&first), 3, sizeof first, 1, 0, sizeof first};
+        };
+        if (share_bytes(layout(required(lower, "lower")), layout(required(upper, "upper"))))
+            throw Error(Status::ERROR_SHARED_MEMORY, "lower and upper: they share memory");
         for (int axis = 0; axis < 3; ++axis) {
             lower[axis] = bounds.lower[axis];
             upper[axis] = bounds.upper[axis];

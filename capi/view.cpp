@@ -47,6 +47,7 @@ std::int32_t rw_view_create(const rw_scene* scene, const rw_view_options* option
         s->tracer(); // an error unless committed
         rw_view*& out = required(view, "view");
         const rw_view_options o = read_struct(options, "options");
+        read_reserved(o.reserved, "options");
         const rw_commit_options c = read_optional_struct(commit, "commit");
         ViewRequest request;
         request.frame = read_frame(o);

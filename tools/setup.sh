@@ -67,6 +67,15 @@ probe_certificates() {
     return 1
 }
 
+# What localedef makes locales from.
+probe_locale_source() { # NAMES...
+    local name
+    have localedef && [[ -e /usr/share/i18n/charmaps/UTF-8.gz || -e /usr/share/i18n/charmaps/UTF-8 ]] || return 1
+    for name in "$@"; do
+        [[ -e /usr/share/i18n/locales/$name ]] || return 1
+    done
+}
+
 probe_libclang() {
     local folder
     for folder in "${LIBCLANG_PATH:-}" /usr/lib/llvm*/lib /usr/lib/*-linux-gnu /usr/lib64 /usr/lib /usr/local/lib; do

@@ -77,12 +77,16 @@ Parallel::Parallel(unsigned threads, Host host)
 
 // oneTBB would tell the same, but its first answer takes memory, and when that is refused no later question returns.
 unsigned Parallel::usable_threads() {
-    static const unsigned count = [] {
+    static std::atomic<unsigned> known{0}; // no guard, which a fork could leave locked
+    unsigned count = known.load(std::memory_order_relaxed);
+    if (count == 0) {
         cpu_set_t cpus;
-        if (sched_getaffinity(getpid(), sizeof cpus, &cpus) == 0) return static_cast<unsigned>(CPU_COUNT(&cpus));
-        return std::thread::hardware_concurrency(); // more processors than the set has room for
-    }();
-    return std::max(1u, count);
+        const bool is_told =
+            sched_getaffinity(getpid(), sizeof cpus, &cpus) == 0; // else more than the set has room for
+        count = std::max(1u, is_told ? static_cast<unsigned>(CPU_COUNT(&cpus)) : std::thread::hardware_concurrency());
+        known.store(count, std::memory_order_relaxed);
+    }
+    return count;
 }
 
 void Parallel::for_each(std::uint64_t count, const Task& task) const {
@@ -124,8 +128,9 @@ void Parallel::for_blocks(std::uint64_t count, std::uint64_t grain,
     // Several blocks per thread balance uneven work; never smaller than the grain.
     const std::uint64_t wanted = std::max<std::uint64_t>(1, std::uint64_t{threads_} * 8);
     const std::uint64_t block = std::max(grain, (count + wanted - 1) / wanted);
-    const std::uint64_t blocks = (count + block - 1) / block;
-    for_each(blocks, [&](std::uint64_t i) { body(i * block, std::min(count, (i + 1) * block)); });
+    // What is left over is a block of its own only where it is as long as the grain.
+    const std::uint64_t blocks = std::max<std::uint64_t>(1, count / block + (count % block >= grain ? 1 : 0));
+    for_each(blocks, [&](std::uint64_t i) { body(i * block, i + 1 == blocks ? count : (i + 1) * block); });
 }
 
 } // namespace raywise

@@ -19,9 +19,12 @@ public:
     // again here, after all have ended. Throws Error(ERROR_HOST_PARALLEL) when the host's loop left out or repeated an index.
     void for_each(std::uint64_t count, const Task& task) const;
 
-    // Splits [0, count) into blocks of at least `grain` and calls body(begin, end) for each.
+    // Splits [0, count) into blocks of at least `grain`, or one of all where there are fewer, and calls body(begin, end) for each.
     void for_blocks(std::uint64_t count, std::uint64_t grain,
                     const std::function<void(std::uint64_t begin, std::uint64_t end)>& body) const;
+
+    // The host's loop where there is one, else the caller's thread alone: for work too small for the library's own threads.
+    Parallel without_own_threads() const { return host_ ? *this : Parallel(1); }
 
     unsigned threads() const { return threads_; }
 

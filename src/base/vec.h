@@ -25,6 +25,9 @@ inline typename Vector::value_type at(const Vector& v, int axis) {
 // A difference with itself is NaN where it is not zero, and so is a sum of such.
 inline bool is_finite(const Vec3& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0.0; }
 
+// Lexicographic.
+inline bool precedes(const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
 // Without branches, which rays in all directions would make mispredicted: GLM's functions for double have some.
 inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }

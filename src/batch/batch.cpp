@@ -11,7 +11,8 @@
 namespace raywise {
 namespace {
 
-// Fewer rays than this are answered on the caller's thread: waking another costs more.
+// Each thread gets at least so many rays: waking one for fewer costs more. So twice as many are the first that are not answered on the
+// caller's thread alone.
 constexpr std::uint64_t fewest_rays = 256;
 
 // Rays are put in order where there are so many, and where each takes so long as they come, in nanoseconds of one thread: elsewhere
@@ -114,7 +115,8 @@ private:
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
         ns_per_ray_.resize(blocks);
-        parallel_.for_each(std::min<std::uint64_t>(blocks_.size(), blocks), [&](std::uint64_t thread) {
+        const std::uint64_t threads = std::clamp<std::uint64_t>(count / fewest_rays, 1, blocks_.size());
+        parallel_.for_each(std::min(threads, blocks), [&](std::uint64_t thread) {
             for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
                 const std::uint64_t n = std::min(size, count - i * size);
                 const Clock::time_point start = Clock::now();

@@ -19,6 +19,8 @@ bool are_weights(Sign a, Sign b, Sign c) {
     return positive != negative;
 }
 
+int sign_of(double x) { return (x > 0.0 ? 1 : 0) - (x < 0.0 ? 1 : 0); }
+
 // ---- Sums of doubles: the faster way, above all where many components or differences are zero or short.
 
 // Numbers between these have products of three, and roundings of those, within the range of doubles.
@@ -110,6 +112,19 @@ void add_triple(Volume& volume, double sign, const Difference& a, const Differen
     }
 }
 
+// Two products of two differences of two parts, each of which adds two components.
+using Area = Expansion<2 * 4 * 2>;
+
+// area += sign * a * b
+void add_product(Area& area, double sign, const Difference& a, const Difference& b) {
+    for (const double x : a.parts) {
+        if (x == 0.0) continue;
+        for (const double y : b.parts) {
+            if (y != 0.0) area.add_product(sign * x, y);
+        }
+    }
+}
+
 // ---- Integers: any numbers.
 
 // The same for several values: what brings the largest below 1.
@@ -173,6 +188,38 @@ double plane_side(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& 
     if (volume.is_zero()) return 0.0;
     const double magnitude = std::fabs(scaled_down(volume, -3 * length.exponent()));
     return std::copysign(std::max(magnitude, std::numeric_limits<double>::denorm_min()), volume.sign());
+}
+
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const Vec2 ab = b - a;
+    const Vec2 ac = c - a;
+    // A difference has the right sign, whatever its rounding; so have products, as long as one tells signs alone.
+    const int left = sign_of(ab.x) * sign_of(ac.y);
+    const int right = sign_of(ab.y) * sign_of(ac.x);
+    if (left != right) return left > right ? 1 : -1;
+    if (left == 0) return 0;
+
+    // Each product rounds by at most 3 * 2^-53, and their difference once more.
+    const double left_product = ab.x * ac.y;
+    const double right_product = ab.y * ac.x;
+    const double area = left_product - right_product;
+    const double sum = std::fabs(left_product) + std::fabs(right_product);
+    if (sum > 0x1p-900 && std::fabs(area) > 0x1p-51 * sum) return sign_of(area); // neither holds after an overflow
+
+    const Vec3 pa(a, 0.0);
+    const Vec3 pb(b, 0.0);
+    const Vec3 pc(c, 0.0);
+    if (can_be_summed({pa, pb, pc})) {
+        Area exact_area;
+        add_product(exact_area, 1.0, {b.x, a.x}, {c.y, a.y});
+        add_product(exact_area, -1.0, {b.y, a.y}, {c.x, a.x});
+        return sign_of(exact_area.value());
+    }
+    const BinaryUnit length{pa, pb, pc};
+    const WideVec3 first = length.count(pa);
+    const WideVec3 p = length.count(pb) - first;
+    const WideVec3 q = length.count(pc) - first;
+    return WideInteger(p.x * q.y - p.y * q.x).sign();
 }
 
 Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -25,4 +25,7 @@ double plane_side(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& 
 // (b - a) x (c - a) times a power of two that brings its largest component near 1; zero exactly when the corners lie in one line.
 Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
+// Which way three points of a plane turn: 1 to the left, -1 to the right, 0 when they lie in one line. Always exact.
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+
 } // namespace raywise

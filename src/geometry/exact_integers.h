@@ -17,7 +17,8 @@ namespace raywise {
 // Room for the widest value asked for: coordinates are multiples of 2^-1074 below 2^1024, so their differences take 2,099 bits;
 // a prepared direction's components are multiples of 2^-552 below 2 (ExactRay::smallest_direction), 553 bits. A determinant
 // is a sum of six products of two differences and a direction: 2 * 2,099 + 553 + 3 bits; crossings.cpp adds six of those. A
-// volume is a sum of six products of three differences: 3 * 2,099 + 3 bits.
+// volume is a sum of six products of three differences: 3 * 2,099 + 3 bits. A polygon's normal is a sum of two products of two
+// differences for each of less than 2^64 corners.
 using WideInteger = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<6400, 6400, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, void>,
@@ -42,8 +43,12 @@ class BinaryUnit {
     __extension__ using Int128 = __int128;
 
 public:
-    BinaryUnit(std::initializer_list<Vec3> vectors) {
-        for (const Vec3& v : vectors) {
+    BinaryUnit(std::initializer_list<Vec3> vectors) : BinaryUnit(vectors.begin(), vectors.end()) {}
+
+    template <class Iterator>
+    BinaryUnit(Iterator begin, Iterator end) {
+        for (; begin != end; ++begin) {
+            const Vec3& v = *begin;
             for (int axis = 0; axis < 3; ++axis) {
                 const Parts parts = parts_of(v[axis]);
                 if (parts.mantissa != 0 && parts.exponent < exponent_) exponent_ = parts.exponent;

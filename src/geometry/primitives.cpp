@@ -100,7 +100,8 @@ Vec3 unit_normal(const Corners& corners) {
     if (!(largest > 0x1p-480 && largest < 0x1p480)) {
         for (int axis = 0; axis < 3; ++axis) n[axis] = std::ldexp(n[axis], -std::ilogb(largest));
     }
-    return n / std::sqrt(glm::dot(n, n));
+    // Zeros lose their signs: those of the corners are not kept everywhere, and the same hit is to have the same bits.
+    return n / std::sqrt(glm::dot(n, n)) + Vec3(0.0);
 }
 
 } // namespace raywise

@@ -5,16 +5,16 @@
 
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
-#include <OpenMesh/Core/IO/reader/OBJReader.hh>
-#include <OpenMesh/Core/IO/reader/OFFReader.hh>
 #include <OpenMesh/Core/IO/reader/PLYReader.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
-#include <cerrno>
+#include <istream>
 #include <locale>
 #include <mutex>
 #include <new>
-#include <sstream>
+#include <streambuf>
+
+#include <pthread.h>
 
 namespace raywise::io {
 namespace {
@@ -37,7 +37,7 @@ public:
         for (std::size_t axis = 0; axis < 3; ++axis) mesh_.vertices.at(first + axis) = p[axis];
     }
     FaceHandle add_face(const VHandles& corners) override {
-        for (const VertexHandle corner : corners) mesh_.corners.push_back(corner.idx());
+        for (const VertexHandle corner : corners) mesh_.corners.push_back(static_cast<std::uint32_t>(corner.idx()));
         mesh_.face_ends.push_back(mesh_.corners.size());
         return FaceHandle(static_cast<int>(n_faces() - 1));
     }
@@ -103,56 +103,43 @@ private:
     bool log_;
 };
 
-// The readers parse numbers with streams of their own, which follow the global C++ locale. Most programs leave it
-// alone; where one has set a locale that writes numbers differently it is put aside while a file is read.
-class PlainNumbers {
+// A text in memory as a stream, without another copy of it.
+class TextBuffer final : public std::streambuf {
 public:
-    PlainNumbers() {
-        const auto& numbers = std::use_facet<std::numpunct<char>>(before_);
-        changed_ = numbers.decimal_point() != '.' || !numbers.grouping().empty();
-        if (changed_) std::locale::global(std::locale::classic());
-    }
-    ~PlainNumbers() {
-        if (changed_) std::locale::global(before_);
-    }
-    PlainNumbers(const PlainNumbers&) = delete;
-    PlainNumbers& operator=(const PlainNumbers&) = delete;
+    explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
 
 private:
-    std::locale before_;
-    bool changed_ = false;
+    pos_type seekoff(off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode) override {
+        const off_type base = direction == std::ios_base::beg   ? 0
+                              : direction == std::ios_base::end ? egptr() - eback()
+                                                                : gptr() - eback();
+        const off_type position = base + offset;
+        if (position < 0 || position > egptr() - eback()) return pos_type(off_type(-1));
+        setg(eback(), eback() + position, egptr());
+        return pos_type(position);
+    }
+    pos_type seekpos(pos_type position, std::ios_base::openmode which) override {
+        return seekoff(position, std::ios_base::beg, which);
+    }
 };
 
-bool run(FileKind kind, const std::filesystem::path& path, std::istream& stream, Importer& importer) {
-    IO::Options options;
-    switch (kind) {
-        case FileKind::obj:
-            return IO::IOManager().read(stream, "obj", importer, options);
-        case FileKind::ply:
-            return IO::IOManager().read(stream, "ply", importer, options);
-        case FileKind::off:
-            // This reader learns from the file's first line what each vertex has, and a stream does not make it look.
-            errno = 0;
-            if (!IO::OFFReader().can_u_read(path.string()) && errno == ENOMEM) throw std::bad_alloc();
-            return IO::IOManager().read(stream, "off", importer, options);
-        case FileKind::stl:
-            break;
-    }
-    return false;
-}
+// OpenMesh is for one thread at a time. Whoever reads while another thread forks does not go on in the child, where the lock is new.
+std::mutex one_reader;
+[[maybe_unused]] const int after_fork = pthread_atfork(nullptr, nullptr, [] { new (&one_reader) std::mutex; });
 
 } // namespace
 
-RawMesh read_with_openmesh(FileKind kind, const std::filesystem::path& path, const std::string& text) {
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+RawMesh read_with_openmesh(std::string ply) {
+    const std::lock_guard lock(one_reader);
     const Silence silence;
-    const PlainNumbers numbers;
     RawMesh mesh;
     Importer importer(mesh);
-    std::istringstream stream(text, std::ios::in | std::ios::binary);
+    TextBuffer buffer(ply);
+    std::istream stream(&buffer);
+    stream.imbue(std::locale::classic()); // the host's may write numbers differently
+    IO::Options options;
     const AllocationWatch watch;
-    const bool good = run(kind, path, stream, importer);
+    const bool good = IO::IOManager().read(stream, "ply", importer, options);
     watch.require_none_refused();
     if (!good) throw Error(Status::ERROR_FILE_FORMAT, "OpenMesh cannot read the file");
     return mesh;

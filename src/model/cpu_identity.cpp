@@ -64,8 +64,6 @@ CpuIdentity x86_identity() {
         }
         cpu.brand = trimmed(cpu.brand.c_str()); // up to the first zero
     }
-    // The kernels of this version are plain compiled code and use no more than every such processor has.
-    cpu.instruction_set = sizeof(void*) == 8 ? "x86-64" : "x86";
     return cpu;
 }
 
@@ -89,7 +87,6 @@ CpuIdentity arm_identity(std::string_view cpuinfo) {
     cpu.family = number(facts["CPU architecture"]);
     cpu.model = number(facts["CPU part"]);
     cpu.stepping = number(facts["CPU variant"]) * 16 + number(facts["CPU revision"]);
-    cpu.instruction_set = "aarch64";
     return cpu;
 }
 
@@ -97,11 +94,7 @@ CpuIdentity cpu_identity() {
 #ifdef RW_HAS_CPUID
     return x86_identity();
 #else
-    CpuIdentity cpu = arm_identity(content_or_nothing("/proc/cpuinfo"));
-#if !defined(__aarch64__)
-    cpu.instruction_set = "other";
-#endif
-    return cpu;
+    return arm_identity(content_or_nothing("/proc/cpuinfo"));
 #endif
 }
 

@@ -12,7 +12,6 @@ struct CpuIdentity {
     unsigned family = 0;
     unsigned model = 0;
     unsigned stepping = 0;
-    std::string instruction_set;
     bool virtualised = false;
 };
 

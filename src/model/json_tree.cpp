@@ -1,6 +1,7 @@
 #include "model/json_tree.h"
 
 #include "base/error.h"
+#include "base/format.h"
 
 #include <nlohmann/json.hpp>
 
@@ -133,6 +134,8 @@ std::string JsonNode::excerpt() const {
 JsonNode parse_json(const std::string& text) {
     // The parser takes a zero for the end and would not look at what follows.
     if (text.find('\0') != std::string::npos) throw Error(Status::PROFILE_MALFORMED, "holds a zero byte");
+    // The parser hands numbers to strtod and asks the locale for its decimal point, of which it takes one byte.
+    const PlainLocale plain;
     JsonNode root;
     Builder builder(root);
     json::sax_parse(text, &builder);

@@ -1,5 +1,6 @@
 #include "model/machine.h"
 
+#include "base/instruction_set.h"
 #include "base/parallel.h"
 #include "model/cache_sizes.h"
 #include "model/cpu_identity.h"
@@ -39,7 +40,9 @@ unsigned usable_threads() {
     return std::max(1u, static_cast<unsigned>(std::ceil(*quota)));
 }
 
-Machine look_around() {
+} // namespace
+
+Machine look_at_machine() {
     const CpuIdentity cpu = cpu_identity();
     const CacheSizes caches = cache_sizes();
     Machine machine;
@@ -48,7 +51,7 @@ Machine look_around() {
     machine.family = cpu.family;
     machine.model = cpu.model;
     machine.stepping = cpu.stepping;
-    machine.instruction_set = cpu.instruction_set;
+    machine.instruction_set = instruction_set();
     machine.l1_bytes = caches.l1;
     machine.l2_bytes = caches.l2;
     machine.l3_bytes = caches.l3;
@@ -57,15 +60,13 @@ Machine look_around() {
     return machine;
 }
 
-} // namespace
-
 std::string Machine::key() const {
     return plain(vendor) + "-" + std::to_string(family) + "-" + std::to_string(model) + "-" + std::to_string(stepping) +
            "-" + plain(instruction_set) + "-l3-" + size_text(l3_bytes) + "-t" + std::to_string(threads);
 }
 
 const Machine& this_machine() {
-    static const Machine machine = look_around();
+    static const Machine machine = look_at_machine();
     return machine;
 }
 

@@ -25,7 +25,7 @@ enum class ProfileSource {
 };
 
 struct Provenance {
-    std::string tool;     // "raywise-calibrate 0.1.0"
+    std::string tool;     // "raywise-calibrate 0.2.0"
     std::string command;  // as typed
     std::string date;     // ISO 8601, UTC
     std::string mode;     // "quick" or "full"
@@ -42,7 +42,8 @@ struct Profile {
     // Where it came from; not part of the file.
     ProfileSource source = ProfileSource::generic;
     std::string path;
-    // Why the file asked for was passed over (OK when it was not), in a status and in words.
+    // Why a file that comes before this one was passed over (OK when none was), in a status and in words: "PATH: what is wrong".
+    // What is used instead is this profile, which its source tells.
     Status status = Status::OK;
     std::string reason;
 };
@@ -70,10 +71,17 @@ struct ProfilePlaces {
 Profile find_profile();
 Profile find_profile(const ProfilePlaces& places);
 
+// What find_profile() found when this was first called. Kept for as long as the process lives, so that whoever needs constants
+// need not read a file; a call that runs out of memory keeps nothing, and the next one looks again.
+const std::shared_ptr<const Profile>& kept_profile();
+
 // The profile as JSON text, and back: what is read and written again is the same text. parse throws Error with a
 // PROFILE_ status; it checks everything but the machine.
 std::string to_json(const Profile& profile);
 Profile parse_profile(const std::string& text);
+
+// Where its constants came from, for people.
+std::string source_text(const Profile& profile);
 
 // As text for people: fits 100 columns.
 std::string to_text(const Profile& profile);

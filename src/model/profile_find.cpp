@@ -79,6 +79,12 @@ Profile find_profile() {
     return find_profile({environment("RAYWISE_CALIBRATION"), user_profile_path(here), system_profile_path(here)});
 }
 
+const std::shared_ptr<const Profile>& kept_profile() {
+    // Never freed: threads may go on, and functions registered with atexit run, when objects with static storage are gone.
+    static const auto& kept = *new std::shared_ptr<const Profile>(std::make_shared<const Profile>(find_profile()));
+    return kept;
+}
+
 std::filesystem::path user_profile_path(const Machine& machine) {
     // Relative paths are to be ignored, says the XDG base directory specification.
     std::filesystem::path folder = environment("XDG_CACHE_HOME");

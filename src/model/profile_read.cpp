@@ -1,9 +1,9 @@
 // Reading a profile's file, which may be anything: missing, a folder, a pipe without a writer, a device without an end.
 #include "base/descriptor.h"
+#include "base/format.h"
 #include "model/profile.h"
 
 #include <cerrno>
-#include <cstring>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
 [[noreturn]] void fail_with_errno(int error) {
     if (error == ENOENT || error == ENOTDIR) fail(Status::PROFILE_NOT_FOUND, "there is no such file");
-    fail(Status::PROFILE_UNREADABLE, std::string("cannot be read: ") + std::strerror(error));
+    fail(Status::PROFILE_UNREADABLE, "cannot be read: " + error_text(error));
 }
 
 void demand_plain_file(const struct stat& facts) {

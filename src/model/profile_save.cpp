@@ -1,10 +1,11 @@
 // Writing a profile so that a reader sees the old file or the new one and a failure leaves nothing behind.
 #include "model/profile.h"
 
+#include "base/format.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include <fcntl.h>
@@ -33,7 +34,7 @@ public:
             } else if (errno != EEXIST) {
                 const int reason = errno;
                 remove();
-                fail(*f, std::strerror(reason));
+                fail(*f, error_text(reason));
             }
         }
     }
@@ -55,7 +56,7 @@ class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& wanted) : wanted_(wanted), name_(wanted.string() + ".XXXXXX") {
         descriptor_ = ::mkstemp(name_.data());
-        if (descriptor_ < 0) fail(wanted_, std::strerror(errno));
+        if (descriptor_ < 0) fail(wanted_, error_text(errno));
     }
     ~TemporaryFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
@@ -68,17 +69,17 @@ public:
         for (std::size_t done = 0; done < text.size();) {
             const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
             if (count < 0 && errno == EINTR) continue;
-            if (count < 0) fail(wanted_, std::strerror(errno));
+            if (count < 0) fail(wanted_, error_text(errno));
             done += static_cast<std::size_t>(count);
         }
         // Readable for all; on the disk before the name points to it.
-        if (::fchmod(descriptor_, 0644) != 0 || ::fsync(descriptor_) != 0) fail(wanted_, std::strerror(errno));
+        if (::fchmod(descriptor_, 0644) != 0 || ::fsync(descriptor_) != 0) fail(wanted_, error_text(errno));
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
-        if (closed != 0) fail(wanted_, std::strerror(errno));
+        if (closed != 0) fail(wanted_, error_text(errno));
     }
     void rename() {
-        if (::rename(name_.c_str(), wanted_.c_str()) != 0) fail(wanted_, std::strerror(errno));
+        if (::rename(name_.c_str(), wanted_.c_str()) != 0) fail(wanted_, error_text(errno));
         renamed_ = true;
     }
 
@@ -101,7 +102,7 @@ void sync_folder(const fs::path& folder) {
 fs::path resolved(const fs::path& path) {
     std::error_code error;
     const fs::path target = fs::weakly_canonical(path, error);
-    if (error) fail(path, error.message());
+    if (error) fail(path, error_text(error.value()));
     return target;
 }
 

@@ -1,27 +1,15 @@
 // A profile as a table for people, at most 100 columns wide as far as words can be broken.
+#include "base/format.h"
 #include "base/words.h"
 #include "model/cost_functions.h"
 #include "model/profile.h"
 
-#include <cstdarg>
-#include <cstdio>
 #include <string_view>
 
 namespace raywise {
 namespace {
 
 constexpr std::size_t columns = 100;
-
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-
-std::string format(const char* pattern, ...) {
-    char buffer[256];
-    std::va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(buffer, sizeof(buffer), pattern, arguments);
-    va_end(arguments);
-    return buffer;
-}
 
 // "label    words that go on", continued under the first word.
 std::string paragraph(const std::string& label, const std::string& words) {
@@ -44,10 +32,18 @@ std::string paragraph(const std::string& label, const std::string& words) {
     return text + "\n";
 }
 
-std::string size_text(std::uint64_t bytes) {
+std::string cache_text(std::uint64_t bytes) {
     if (bytes >= std::uint64_t{1} << 20) return format("%g MiB", static_cast<double>(bytes) / (1 << 20));
     return format("%g KiB", static_cast<double>(bytes) / (1 << 10));
 }
+
+std::string row(const char* structure, const std::string& cost, const CostLine& line, const char* quantity,
+                const char* unit) {
+    return format("%-14s %-12s %14.6g %s %14.6g %s %-8s %9.0f %%\n", structure, cost.c_str(), line.fixed, quantity,
+                  line.per_unit, quantity, unit, line.residual * 100.0);
+}
+
+} // namespace
 
 std::string source_text(const Profile& profile) {
     switch (profile.source) {
@@ -65,14 +61,6 @@ std::string source_text(const Profile& profile) {
     return {};
 }
 
-std::string row(const char* structure, const std::string& cost, const CostLine& line, const char* quantity,
-                const char* unit) {
-    return format("%-14s %-12s %14.6g %s %14.6g %s %-8s %9.0f %%\n", structure, cost.c_str(), line.fixed, quantity,
-                  line.per_unit, quantity, unit, line.residual * 100.0);
-}
-
-} // namespace
-
 std::string to_text(const Profile& profile) {
     const Machine& machine = profile.machine;
     const Provenance& provenance = profile.provenance;
@@ -84,8 +72,8 @@ std::string to_text(const Profile& profile) {
                       machine.brand + " (" + machine.vendor + " family " + std::to_string(machine.family) + " model " +
                           std::to_string(machine.model) + " stepping " + std::to_string(machine.stepping) + "), " +
                           machine.instruction_set + ", " + machine.precision + ", " + std::to_string(machine.threads) +
-                          " threads, caches " + size_text(machine.l1_bytes) + " / " + size_text(machine.l2_bytes) +
-                          " / " + size_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
+                          " threads, caches " + cache_text(machine.l1_bytes) + " / " + cache_text(machine.l2_bytes) +
+                          " / " + cache_text(machine.l3_bytes) + (machine.virtualised ? ", virtual" : ""));
     text += paragraph("key", machine.key());
     text += paragraph("measured at", provenance.date + ", mode " + provenance.mode + ", " +
                                          format("%.0f s, spread of repeated timings %.1f %%", provenance.seconds,

@@ -1,10 +1,10 @@
 #include "scene/explain.h"
 
+#include "base/format.h"
 #include "model/json_writer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace raywise {
 namespace {
@@ -14,34 +14,13 @@ constexpr const char* rule_names[] = {"smallest_total", "hapala"};
 constexpr const char* kind_names[] = {"any kind", "random", "camera", "shadow", "diffuse"};
 constexpr const char* source_names[] = {"generic", "path", "environment", "user", "system"};
 
-template <class... Arguments>
-std::string format(const char* pattern, Arguments... arguments) {
-    char buffer[256];
-    const int length = std::snprintf(buffer, sizeof buffer, pattern, arguments...);
-    return std::string(buffer, static_cast<std::size_t>(std::clamp<int>(length, 0, sizeof buffer - 1)));
-}
-
-// A duration in the unit that leaves one to three digits before the point; "-" for NaN.
-std::string duration(double ns) {
-    if (std::isnan(ns)) return "-";
-    if (ns < 1e3) return format("%.3g ns", ns);
-    if (ns < 1e6) return format("%.3g us", ns / 1e3);
-    if (ns < 1e9) return format("%.3g ms", ns / 1e6);
-    return format("%.4g s", ns / 1e9);
-}
-
-std::string size(double bytes) {
-    if (bytes < 1024.0) return format("%.0f B", bytes);
-    if (bytes < 1048576.0) return format("%.3g KiB", bytes / 1024.0);
-    if (bytes < 1073741824.0) return format("%.3g MiB", bytes / 1048576.0);
-    return format("%.3g GiB", bytes / 1073741824.0);
-}
-
-// 1234567 as 1,234,567.
-std::string grouped(std::uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return digits;
+// What the vertices are given in; null where there are none.
+const char* precision_of(const Primitives& primitives) {
+    bool float32 = false;
+    bool float64 = false;
+    for (const auto& mesh : primitives.meshes()) (mesh->is_float32() ? float32 : float64) = true;
+    if (float32 && float64) return "float32 and float64";
+    return float32 ? "float32" : float64 ? "float64" : nullptr;
 }
 
 // At most 22 columns, which is what the table leaves of 100. "above": better above so many.
@@ -53,7 +32,7 @@ std::string remark(const CandidateReport& candidate) {
     if (std::isinf(candidate.break_even_rays)) return "never better";
     if (candidate.break_even_rays <= 1.0) return "better at once";
     if (candidate.break_even_rays >= 1e9) return format("above %.1e rays", candidate.break_even_rays);
-    return "above " + grouped(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
+    return "above " + grouped_text(static_cast<std::uint64_t>(candidate.break_even_rays)) + " rays";
 }
 
 } // namespace
@@ -82,22 +61,26 @@ CandidateReport report_candidate(const Plan& plan, const Tracer& tracer, Structu
 
 std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& profile) {
     std::string text;
-    text += "scene: " + grouped(tracer.primitives().count()) + " triangles, ";
-    text +=
-        plan.workload.rays ? grouped(*plan.workload.rays) + " rays expected" : std::string("number of rays unknown");
+    text += "scene: " + grouped_text(tracer.primitives().count()) + " triangles, ";
+    text += plan.workload.rays ? grouped_text(*plan.workload.rays) + " rays expected"
+                               : std::string("number of rays unknown");
     text += format(" (%s), effort %s, rule %s\n", kind_names[static_cast<int>(plan.workload.kind)],
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
-    text +=
-        format("calibration: %s, %s", source_names[static_cast<int>(profile.source)], profile.provenance.date.c_str());
-    text += profile.status == Status::OK ? std::string("\n") : " (" + profile.reason + ")\n";
+    const char* const precision = precision_of(tracer.primitives());
+    if (precision != nullptr) text += std::string("vertices: ") + precision + "\n";
+    text += std::string("calibration: ") + source_names[static_cast<int>(profile.source)] + ", measured " +
+            profile.provenance.date + "\n";
+    if (!profile.path.empty()) text += "profile: " + profile.path + "\n"; // of any length
+    if (profile.status != Status::OK) text += "passed over: " + profile.reason + "\n";
     if (plan.hapala) {
-        text += format("Hapala: kd-tree predicted %s to build, %s a ray; critical number of rays %.3g: %s\n",
-                       duration(plan.hapala->tree_build_ns).c_str(), duration(plan.hapala->tree_ray_ns).c_str(),
-                       plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
+        text +=
+            format("Hapala: kd-tree predicted %s to build, %s a ray; critical number of rays %.3g: %s\n",
+                   duration_text(plan.hapala->tree_build_ns).c_str(), duration_text(plan.hapala->tree_ray_ns).c_str(),
+                   plan.hapala->critical_rays, plan.hapala->keep_grid ? "keep the grid" : "build the kd-tree");
     }
     if (plan.refit && plan.refit->refits > 0) {
         text += format("refitted: %s times since it was built; a ray is reckoned at %.3g of what it was then\n",
-                       grouped(plan.refit->refits).c_str(), plan.refit->cost);
+                       grouped_text(plan.refit->refits).c_str(), plan.refit->cost);
     } else if (plan.refit) {
         text += format("not refitted but built anew: %s\n", plan.refit->obstacle);
     }
@@ -106,20 +89,20 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
     for (const Structure structure : all_structures()) {
         const CandidateReport candidate = report_candidate(plan, tracer, structure);
         const PlannedCandidate& figures = candidate.figures;
-        text +=
-            format("%c %-13s %8s %8s %4.0f%% %8s %8s  %8s %8s  ", candidate.chosen ? '>' : ' ', name_of(structure),
-                   duration(figures.predicted.build_ns).c_str(), duration(figures.predicted.ray_ns).c_str(),
-                   100.0 * figures.predicted.error,
-                   size(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes)
-                       .c_str(),
-                   duration(candidate.predicted_total_ns).c_str(), duration(figures.actual_build_ns).c_str(),
-                   duration(figures.actual_ray_ns).c_str());
+        text += format(
+            "%c %-13s %8s %8s %4.0f%% %8s %8s  %8s %8s  ", candidate.chosen ? '>' : ' ', name_of(structure),
+            duration_text(figures.predicted.build_ns).c_str(), duration_text(figures.predicted.ray_ns).c_str(),
+            100.0 * figures.predicted.error,
+            size_text(figures.actual_bytes != 0 ? static_cast<double>(figures.actual_bytes) : figures.predicted.bytes)
+                .c_str(),
+            duration_text(candidate.predicted_total_ns).c_str(), duration_text(figures.actual_build_ns).c_str(),
+            duration_text(figures.actual_ray_ns).c_str());
         text += remark(candidate) + "\n";
     }
     const std::uint64_t rays = tracer.usage().rays.load(std::memory_order_relaxed);
     text += "* actual; per ray: wall time of " +
-            (rays > 0 ? grouped(rays) + " rays in batches so far" : std::string("the sample")) + "; deciding took " +
-            duration(plan.decide_ns) + "\n";
+            (rays > 0 ? grouped_text(rays) + " rays in batches so far" : std::string("the sample")) +
+            "; deciding took " + duration_text(plan.decide_ns) + "\n";
     return text;
 }
 
@@ -128,6 +111,11 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     json.open_object();
     json.put("triangles", tracer.primitives().count());
     json.put("hittable_triangles", tracer.primitives().hittable_count());
+    if (const char* const precision = precision_of(tracer.primitives())) {
+        json.put("vertices", precision);
+    } else {
+        json.put_null("vertices");
+    }
     if (plan.workload.rays) {
         json.put("expected_rays", *plan.workload.rays);
     } else {

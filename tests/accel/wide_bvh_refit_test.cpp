@@ -225,7 +225,7 @@ TEST(WideBvhRefit, ATreeCostsTheAreasOfItsParts) {
     }
     Scene scene(triangles);
     const Bvh bvh(scene.input());
-    EXPECT_NEAR(tree_cost(bvh.tree(), Parallel(1)), 1.0 + 2.0 * 3.0 / 7.0, 1e-12);
+    EXPECT_NEAR(tree_cost(bvh.tree(), Parallel(1)), 1.0 + 2.0 * 3.0 / 7.0, 1e-6) << "boxes are wider by 2^-26";
     EXPECT_EQ(tree_cost(WideBvh{}, Parallel(1)), 0.0);
 }
 

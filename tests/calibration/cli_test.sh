@@ -49,7 +49,6 @@ expect 2 measure --system --output "$FOLDER/x.json"
 expect 2 measure --time-limit soon
 expect 2 measure --threads 0
 expect 2 explain
-expect 2 explain "$FOLDER/mesh.off"
 expect 2 explain "$FOLDER/mesh.off" --rays 0
 expect 2 explain "$FOLDER/mesh.off" --rays -5
 expect 2 explain "$FOLDER/mesh.off" --rays 10 --kind sideways
@@ -102,6 +101,15 @@ expect 0 show "$FOLDER/foreign.json"
 printed "Not valid here"
 RAYWISE_CALIBRATION=$FOLDER/broken.json expect 0 check # the user's own is next
 printed "passed over: $FOLDER/broken.json"
+printed "valid: $XDG_CACHE_HOME/raywise/$KEY.json"
+RAYWISE_CALIBRATION=$FOLDER/broken.json expect 0 show
+printed "profile     $XDG_CACHE_HOME/raywise/$KEY.json (user)"
+printed "passed over $FOLDER/broken.json"
+! grep -q generic "$FOLDER/out" || fail "generic constants are named although a file is used"
+sed 's/"instruction_set": "[^"]*"/"instruction_set": "OTHER"/' "$FOLDER/profile.json" >"$FOLDER/level.json"
+expect 1 check "$FOLDER/level.json"
+printed 'machine.instruction_set: the profile has "OTHER"'
+printed "generic constants are used"
 
 # Places that cannot be written
 expect 1 measure --quick --force --time-limit 60 --output /dev/null
@@ -116,6 +124,19 @@ printed "linear_scan"
 narrow
 expect 0 explain "$FOLDER/mesh.off" --rays unknown --kind shadow --json
 printed '"'
+expect 0 explain "$FOLDER/mesh.off" # a row for each of 1, 10 ... 10^8 rays
+narrow
+for rays in 1 10 100 1,000 10,000 100,000 1,000,000 10,000,000 100,000,000; do
+    grep -qE "^ *$rays +[a-z_]+ +[0-9.]+ [num]?s " "$FOLDER/out" || fail "no row for $rays rays"
+done
+[[ $(wc -l <"$FOLDER/out") == 11 ]] || fail "the table has other rows"
+expect 0 explain "$FOLDER/mesh.off" --kind camera --json
+printed '"ray_kind": "camera"'
+[[ $(grep -c '"predicted_total_ns"' "$FOLDER/out") == 9 ]] || fail "the JSON has not nine choices"
+# The rows are what explain says of each number by itself.
+structure=$("$PROGRAM" explain "$FOLDER/mesh.off" --rays 1000 | sed -n 's/^> \([a-z_]*\) .*/\1/p')
+expect 0 explain "$FOLDER/mesh.off"
+grep -qE "^ *1,000 +$structure " "$FOLDER/out" || fail "the table chooses otherwise than $structure for 1,000 rays"
 expect 1 explain "$FOLDER/missing.off" --rays 10
 complained "missing.off"
 

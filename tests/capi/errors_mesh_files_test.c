@@ -30,12 +30,16 @@ static const struct wrong_file {
     {"a.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", RW_ERROR_FILE_FORMAT, "vertex 1|line 2|too few coordinates"},
     {"a.obj", "v 0 0 0\nv 1 x 0\nv 0 1 0\nf 1 2 3\n", RW_ERROR_FILE_FORMAT, "vertex 1|x|no number"},
     {"a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", RW_ERROR_NOT_FINITE, "vertex 1"},
-    {"a.obj", "v 0 0 0\nv 1 0 1e39\nv 0 1 0\nf 1 2 3\n", RW_ERROR_NOT_FINITE, "vertex 1|1e39"},
+    {"a.obj", "v 0 0 0\nv 1 0 1e309\nv 0 1 0\nf 1 2 3\n", RW_ERROR_NOT_FINITE, "vertex 1|1e309|line 2"},
 
     {"a.off", "COFF BINARY\n", RW_ERROR_FILE_FORMAT, "binary OFF"},
     {"a.off", "OF\n", RW_ERROR_FILE_FORMAT, "does not begin with OFF"},
     {"a.off", "4OFF\n", RW_ERROR_FILE_FORMAT, "3 dimensions"},
-    {"a.off", "# a comment\nNOFF\n", RW_ERROR_FILE_FORMAT, "NOFF|first word"},
+    {"a.off", "# a comment\nNOFF\n", RW_ERROR_FILE_FORMAT, "counts are missing|line 2"},
+    {"a.off", "OFFSET\n3 1 0\n", RW_ERROR_FILE_FORMAT, "OFFSET|no keyword|line 1"},
+    {"a.off", "nOFF\n4\n3 1 0\n", RW_ERROR_FILE_FORMAT, "3 dimensions|line 2"},
+    {"a.off", "OFF\n-1 1 0\n", RW_ERROR_FILE_FORMAT, "number of vertices|-1|line 2"},
+    {"a.off", "OFF\n2147483648 1 0\n", RW_ERROR_TOO_MANY, "vertices|line 2"},
     {"a.off", "OFF\n", RW_ERROR_FILE_FORMAT, "truncated|counts"},
     {"a.off", "OFF\nmany 1 0\n", RW_ERROR_FILE_FORMAT, "number of vertices"},
     {"a.off", "OFF\n3 1 none\n", RW_ERROR_FILE_FORMAT, "line|three counts"},
@@ -50,8 +54,7 @@ static const struct wrong_file {
     {"a.off", "OFF\n3 1 0\n" ROWS "3 0 1 z\n", RW_ERROR_FILE_FORMAT, "face 0|z|no index"},
     {"a.off", "OFF\n3 1 0\n" ROWS "3 0 1 3\n", RW_ERROR_INDEX_OUT_OF_RANGE, "face 0|index 3|3 vertices"},
     {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 inf\n0 1 0\n3 0 1 2\n", RW_ERROR_NOT_FINITE, "vertex 1"},
-    {"a.off", "STOFF\n3 1 0\n" ROWS "3 0 1 2\n", RW_ERROR_FILE_FORMAT, "vertex 0|texture"},
-    {"a.off", "COFF\n3 1 0\n0 0 0 1 1 1 1 1\n1 0 0\n0 1 0\n3 0 1 2\n", RW_ERROR_FILE_FORMAT, "vertex 0|too many"},
+    {"a.off", "STOFF\n3 1 0\n" ROWS "3 0 1 2\n", RW_ERROR_FILE_FORMAT, "vertex 0 has 3 numbers|5|line 3"},
 
     {"a.ply", "solid", RW_ERROR_FILE_FORMAT, "does not begin with ply"},
     {"a.ply", PLY, RW_ERROR_FILE_FORMAT, "truncated|header"},
@@ -62,7 +65,8 @@ static const struct wrong_file {
     {"a.ply", PLY "nonsense\nend_header\n", RW_ERROR_FILE_FORMAT, "unknown word|nonsense"},
     {"a.ply", PLY "element vertex 3\nproperty half x\nend_header\n", RW_ERROR_FILE_FORMAT, "unknown type|half"},
     {"a.ply", PLY "element vertex 3\nproperty float\nend_header\n", RW_ERROR_FILE_FORMAT, "without a name"},
-    {"a.ply", PLY "element vertex 3\nproperty int x\nend_header\n", RW_ERROR_FILE_FORMAT, "float or double"},
+    {"a.ply", PLY "element vertex -1\nend_header\n", RW_ERROR_FILE_FORMAT, "how many|-1|line 3"},
+    {"a.ply", PLY "element vertex 2147483648\n" FACE_1 "end_header\n", RW_ERROR_TOO_MANY, "vertices"},
     {"a.ply", PLY VERTEX_3 "element face 1\nproperty list float int vertex_indices\nend_header\n", RW_ERROR_FILE_FORMAT,
      "counts a list with floats"},
     {"a.ply", PLY VERTEX_3 "element face 1\nproperty list uchar float vertex_indices\nend_header\n",
@@ -137,8 +141,8 @@ static void binary_content(void) {
     memcpy(stl + 84 + 12 + 4 * 4, &nan, sizeof nan);
     CHECK_ERROR(rw_mesh_load(file_of("b.stl", stl, sizeof stl), &none), RW_ERROR_NOT_FINITE,
                 "face 0|coordinate y|corner 1|NaN");
-    CHECK_ERROR(rw_mesh_load(file_of("b.obj", "v 0 0 0\n\0", 9), &none), RW_ERROR_FILE_FORMAT, "no text");
-    CHECK_ERROR(rw_mesh_load(file_of("b.off", "OFF\n\0", 5), &none), RW_ERROR_FILE_FORMAT, "no text");
+    CHECK_ERROR(rw_mesh_load(file_of("b.obj", "v 0 0 0\n\0 1", 11), &none), RW_ERROR_FILE_FORMAT, "no text|line 2");
+    CHECK_ERROR(rw_mesh_load(file_of("b.off", "OFF\n\0 1", 7), &none), RW_ERROR_FILE_FORMAT, "no text|line 2");
     CHECK(none == NULL);
 }
 

@@ -47,28 +47,25 @@ static void batches(void) {
                 "hits.primitive|type 1");
     hits.primitive.type = 0;
     hits.t.stride = RW_REPEAT;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT, "hits.t");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.t|RW_REPEAT");
     hits.t.stride = 4;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT, "hits.t|overlap");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.t|overlap");
     hits.t.stride = -7;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT, "hits.t|overlap");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.t|overlap");
     hits.t.stride = 0;
     hits.normal.data = out;
     hits.normal.type = RW_FLOAT64;
     hits.normal.component_stride = 4;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT,
-                "hits.normal|overlap");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.normal|overlap");
     hits.normal.component_stride = 8;
     hits.normal.stride = 8; /* y of one ray is x of the next */
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT,
-                "hits.normal|overlap");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.normal|overlap");
     hits.normal.stride = -16;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT,
-                "hits.normal|overlap");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.normal|overlap");
     hits.normal.data = NULL;
     rays.count = 1;
     hits.t.stride = RW_REPEAT;
-    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_INVALID_ARGUMENT, "hits.t");
+    CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, NULL), RW_ERROR_OVERLAP, "hits.t|RW_REPEAT");
     hits.t.stride = 0;
     rays.count = 4;
     CHECK_ERROR(rw_scene_occluded_batch(committed, &rays, &flags, NULL), RW_ERROR_INVALID_ARGUMENT, "occluded|NULL");

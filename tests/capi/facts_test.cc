@@ -256,6 +256,7 @@ void mesh_files() {
     CHECK_OK(rw_mesh_triangles(mesh, &t));
     CHECK(t.struct_size == sizeof t && t.vertex_count == 5 && t.triangle_count == 5 && t.vertices.data != nullptr &&
           t.indices.data != nullptr);
+    CHECK(t.vertices.type == RW_FLOAT32 && t.vertices.stride == 0 && t.indices.type == RW_UINT32);
     const uint32_t* faces = nullptr;
     uint64_t face_count = 0;
     CHECK_OK(rw_mesh_faces(mesh, &faces, &face_count));
@@ -277,6 +278,43 @@ void mesh_files() {
     CHECK_OK(rw_mesh_release(mesh));
 }
 
+// Without float64, this triangle would be a line; a ray goes through its middle.
+void mesh_files_of_float64() {
+    char path[] = "/tmp/raywise-facts-XXXXXX.obj";
+    const int descriptor = mkstemps(path, 4);
+    CHECK(descriptor >= 0);
+    {
+        std::ofstream file(path);
+        file << "v 6378137.123456789 0 0\nv 6378137.123456790 8 0\nv 6378137.123456790 0 8\nf 1 2 3\n";
+    }
+    rw_mesh* mesh = nullptr;
+    NEED_OK(rw_mesh_load(path, &mesh));
+    remove(path);
+    rw_triangles t{};
+    t.struct_size = sizeof t;
+    CHECK_OK(rw_mesh_triangles(mesh, &t));
+    CHECK(t.vertices.type == RW_FLOAT64 && static_cast<const double*>(t.vertices.data)[0] == 6378137.123456789);
+    for (const uint32_t flags : {0u, RW_TRIANGLES_SHARED}) {
+        t.flags = flags;
+        rw_scene* scene = nullptr;
+        NEED_OK(rw_scene_create(nullptr, &scene));
+        NEED_OK(rw_scene_add_triangles(scene, &t, nullptr));
+        CHECK_OK(rw_scene_commit(scene, nullptr));
+        const rw_ray ray = {{0, 2, 2}, 0, {1, 0, 0}, INFINITY};
+        rw_hit hit;
+        CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+        CHECK(hit.primitive == 0 && hit.t >= 6378137.123456789 && hit.t <= 6378137.123456790);
+        char text[8192];
+        CHECK_OK(rw_scene_explain(scene, RW_FORMAT_TEXT, text, sizeof text, nullptr));
+        CHECK(strstr(text, "\nvertices: float64\n") != nullptr);
+        CHECK_OK(rw_scene_explain(scene, RW_FORMAT_JSON, text, sizeof text, nullptr));
+        CHECK(strstr(text, "\"vertices\": \"float64\"") != nullptr ||
+              strstr(text, "\"vertices\":\"float64\"") != nullptr);
+        rw_scene_release(scene);
+    }
+    rw_mesh_release(mesh);
+}
+
 } // namespace
 
 int main() {
@@ -287,5 +325,6 @@ int main() {
     candidates_and_explanations();
     profiles();
     mesh_files();
+    mesh_files_of_float64();
     return finish("facts");
 }

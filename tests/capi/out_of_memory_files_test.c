@@ -57,7 +57,8 @@ static int32_t read_mesh(const char *name, uint64_t *sum) {
     t.struct_size = sizeof t;
     CHECK_OK(rw_mesh_triangles(mesh, &t));
     CHECK_OK(rw_mesh_faces(mesh, &faces, &count));
-    *sum = digest(count, t.vertices.data, (size_t)t.vertex_count * 3 * sizeof(float));
+    *sum = digest(count, t.vertices.data,
+                  (size_t)t.vertex_count * 3 * (t.vertices.type == RW_FLOAT64 ? sizeof(double) : sizeof(float)));
     *sum = digest(*sum, t.indices.data, (size_t)t.triangle_count * 3 * sizeof(uint32_t));
     *sum = digest(*sum, faces, (size_t)t.triangle_count * sizeof(uint32_t));
     CHECK_OK(rw_mesh_release(mesh));
@@ -72,7 +73,6 @@ static int32_t read_profile(const char *name, uint64_t *sum) {
     rw_profile *profile = NULL;
     rw_profile_info info;
     int32_t status;
-    setenv("RAYWISE_CALIBRATION", path_of("fitting.json"), 1);
     status = rw_profile_load(strcmp(name, FOUND) == 0 ? NULL : path_of(name), &profile);
     if (status == RW_ERROR_OUT_OF_MEMORY) {
         CHECK(profile == NULL);
@@ -136,8 +136,8 @@ static void refuse_each_at_first(attempt read, const char *name) {
     printf("%s, at first, one refused: %ld allocations\n", name, number - 1);
 }
 
-/* All in one process: nothing is left behind. */
-static void refuse_each_later(attempt read, const char *name) {
+/* All in one process: nothing is left behind. least: allocations that one attempt makes at least. */
+static void refuse_each_later(attempt read, const char *name, long least) {
     refusal which;
     for (which = REFUSE_ONE; which <= REFUSE_FROM_ON; ++which) {
         long number, refused = 1;
@@ -147,7 +147,7 @@ static void refuse_each_later(attempt read, const char *name) {
             refused = refused_and_repeated(read, name, which, number, shared->result);
             CHECK(live_allocations() == live);
         }
-        CHECK(number > 3);
+        CHECK(number > least);
         printf("%s, later, %s: %ld allocations\n", name, which == REFUSE_ONE ? "one refused" : "refused from one on",
                number - 1);
     }
@@ -156,7 +156,7 @@ static void refuse_each_later(attempt read, const char *name) {
 static void refuse_each(attempt read, const char *name) {
     IN_A_PROCESS(CHECK_OK(read(name, &shared->result)));
     refuse_each_at_first(read, name);
-    IN_A_PROCESS(refuse_each_later(read, name));
+    IN_A_PROCESS(refuse_each_later(read, name, 3));
 }
 
 /* ---- the files ------------------------------------------------------------------------------------ */
@@ -242,7 +242,7 @@ static void write_profiles(void) {
 int main(void) {
     static const char *const meshes[] = {"square.obj", "square.off", "normals.off", "square.ply",
                                          "binary.ply", "text.stl",   "binary.stl"};
-    static const char *const others[] = {"foreign.json", "broken.json", "missing.json", FOUND};
+    static const char *const others[] = {"foreign.json", "broken.json", "missing.json"};
     char command[600];
     size_t i;
     use_all_helpers();
@@ -252,12 +252,17 @@ int main(void) {
     if ((void *)shared == MAP_FAILED || mkdtemp(folder) == NULL) return 1;
     write_meshes();
     IN_A_PROCESS(write_profiles());
+    setenv("RAYWISE_CALIBRATION", path_of("fitting.json"), 1); /* what is found */
     for (i = 0; i < sizeof meshes / sizeof meshes[0]; ++i) refuse_each(read_mesh, meshes[i]);
     refuse_each(read_profile, "fitting.json");
     for (i = 0; i < sizeof others / sizeof others[0]; ++i) {
         IN_A_PROCESS(CHECK_OK(read_profile(others[i], &shared->result)));
-        IN_A_PROCESS(refuse_each_later(read_profile, others[i]));
+        IN_A_PROCESS(refuse_each_later(read_profile, others[i], 3));
     }
+    /* Looked up once in a process and kept, unless memory ran out meanwhile; afterwards only a handle is made. */
+    IN_A_PROCESS(CHECK_OK(read_profile(FOUND, &shared->result)));
+    refuse_each_at_first(read_profile, FOUND);
+    IN_A_PROCESS(refuse_each_later(read_profile, FOUND, 1));
     snprintf(command, sizeof command, "rm -rf %s", folder);
     if (system(command) != 0) return 1;
     return finish("out of memory, files");

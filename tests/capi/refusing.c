@@ -4,7 +4,7 @@
 static int refusing; /* 0: nothing is refused; otherwise 1 + refusal */
 static long until;   /* allocations until the first that is refused */
 static long refused;
-static long live;
+static long live, bytes_live;
 
 void refuse(refusal which, long number) {
     __atomic_store_n(&until, number, __ATOMIC_SEQ_CST);
@@ -18,6 +18,7 @@ long stop_refusing(void) {
 }
 
 long live_allocations(void) { return __atomic_load_n(&live, __ATOMIC_SEQ_CST); }
+long live_bytes(void) { return __atomic_load_n(&bytes_live, __ATOMIC_SEQ_CST); }
 
 int is_refused(void) {
     const int how = __atomic_load_n(&refusing, __ATOMIC_SEQ_CST);
@@ -29,4 +30,7 @@ int is_refused(void) {
     return 1;
 }
 
-void count_live(long difference) { __atomic_fetch_add(&live, difference, __ATOMIC_SEQ_CST); }
+void count_live(long difference, long bytes) {
+    __atomic_fetch_add(&live, difference, __ATOMIC_SEQ_CST);
+    __atomic_fetch_add(&bytes_live, bytes, __ATOMIC_SEQ_CST);
+}

@@ -20,12 +20,13 @@ typedef enum refusal {
 void refuse(refusal which, long number);
 /* All succeed again. Tells how many were refused since. */
 long stop_refusing(void);
-/* Allocations made and not given back yet. */
+/* Allocations made and not given back yet, and their bytes. */
 long live_allocations(void);
+long live_bytes(void);
 
 /* For the replaced functions: whether to refuse this one, and the count of what lives. */
 int is_refused(void);
-void count_live(long difference);
+void count_live(long difference, long bytes);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #include "refusing.h"
 
 #include <errno.h>
+#include <malloc.h>
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -11,9 +12,11 @@ extern void *__libc_realloc(void *old, size_t size);
 extern void *__libc_memalign(size_t alignment, size_t size);
 extern void __libc_free(void *memory);
 
+static long size_of(void *memory) { return (long)malloc_usable_size(memory); }
+
 static void *counted(void *memory) {
     if (memory != NULL) {
-        count_live(1);
+        count_live(1, size_of(memory));
     } else {
         errno = ENOMEM;
     }
@@ -33,11 +36,12 @@ EXPORTED int posix_memalign(void **memory, size_t alignment, size_t size) {
     return 0;
 }
 EXPORTED void free(void *memory) {
-    if (memory != NULL) count_live(-1);
+    if (memory != NULL) count_live(-1, -size_of(memory));
     __libc_free(memory);
 }
 EXPORTED void *realloc(void *old, size_t size) {
     void *grown;
+    long before;
     if (old == NULL) return malloc(size);
     if (size == 0) {
         free(old);
@@ -47,6 +51,8 @@ EXPORTED void *realloc(void *old, size_t size) {
         errno = ENOMEM;
         return NULL;
     }
+    before = size_of(old);
     grown = __libc_realloc(old, size);
+    if (grown != NULL) count_live(0, size_of(grown) - before);
     return grown;
 }

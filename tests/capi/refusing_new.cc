@@ -5,7 +5,11 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
+
 namespace {
+
+long size_of(void* memory) noexcept { return static_cast<long>(malloc_usable_size(memory)); }
 
 void* allocate(std::size_t size, std::size_t alignment) noexcept {
     if (is_refused()) return nullptr;
@@ -15,7 +19,7 @@ void* allocate(std::size_t size, std::size_t alignment) noexcept {
     } else if (posix_memalign(&memory, alignment, size) != 0) {
         return nullptr;
     }
-    if (memory != nullptr) count_live(1);
+    if (memory != nullptr) count_live(1, size_of(memory));
     return memory;
 }
 
@@ -39,7 +43,7 @@ void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
 }
 
 void give_back(void* memory) noexcept {
-    if (memory != nullptr) count_live(-1);
+    if (memory != nullptr) count_live(-1, -size_of(memory));
     std::free(memory);
 }
 

@@ -156,8 +156,8 @@ void make_file(const MeshStep& step, Mesh& mesh) {
     }
     const LoadedMesh loaded = load_mesh(folder / step.text);
     oracle::Scene scene;
-    for (std::size_t i = 0; i + 2 < loaded.vertices.size(); i += 3) {
-        scene.vertices.emplace_back(loaded.vertices[i], loaded.vertices[i + 1], loaded.vertices[i + 2]);
+    for (std::size_t i = 0; i < 3 * loaded.vertex_count(); i += 3) {
+        scene.vertices.emplace_back(loaded.coordinate(i), loaded.coordinate(i + 1), loaded.coordinate(i + 2));
     }
     for (std::size_t i = 0; i + 2 < loaded.indices.size(); i += 3) {
         scene.triangles.push_back({loaded.indices[i], loaded.indices[i + 1], loaded.indices[i + 2]});

@@ -202,18 +202,29 @@ OutputArray::OutputArray(Input& input, std::uint64_t count, int components, Outp
     output_.stride = layout_.stride;
     output_.component_stride = layout_.component_stride;
     output_.type = type_ == choice[0] && input.one_in(2) ? RW_TYPE_DEFAULT : type_;
-    is_wrong_ = layout_.stride == RW_REPEAT || layout_.overlaps();
+    has_wrong_strides_ = layout_.stride == RW_REPEAT || layout_.overlaps();
     if (input.one_in(64)) {
         static constexpr std::int32_t wrong[3] = {RW_UINT32, RW_FLOAT32, RW_FLOAT64};
         output_.type = input.one_in(2) ? wrong[static_cast<std::size_t>(kind)] : 6 + input.between(0, 2);
-        is_wrong_ = true;
+        has_wrong_type_ = true;
     }
-    if (count == 0 && !is_wrong_) {
+    if (input.one_in(64)) {
+        output_.reserved = 1 << input.below(31);
+        has_wrong_reserved_ = true;
+    }
+    if (count == 0 && !has_wrong_strides_) {
         Layout one = layout_;
         one.count = 1;
         measure(one);
         is_doubtful_ = one.overlaps();
     }
+}
+
+void OutputArray::complain(Outcome& outcome) const {
+    outcome.fails_if(has_wrong_type_, RW_ERROR_INVALID_ARGUMENT)
+        .fails_if(has_wrong_reserved_, RW_ERROR_RESERVED)
+        .fails_if(has_wrong_strides_, RW_ERROR_OVERLAP)
+        .may_fail_if(is_doubtful_, RW_ERROR_OVERLAP);
 }
 
 template <class T>
@@ -222,7 +233,7 @@ void OutputArray::store(std::uint64_t element, int component, T value) {
 }
 
 void OutputArray::expect_number(std::uint64_t element, int component, double value) {
-    if (!is_wanted() || is_wrong_) return;
+    if (!is_wanted() || is_wrong()) return;
     if (type_ == RW_FLOAT32) {
         store(element, component, static_cast<float>(value));
     } else {
@@ -231,7 +242,7 @@ void OutputArray::expect_number(std::uint64_t element, int component, double val
 }
 
 void OutputArray::expect_id(std::uint64_t element, std::uint32_t id) {
-    if (!is_wanted() || is_wrong_) return;
+    if (!is_wanted() || is_wrong()) return;
     if (type_ == RW_UINT32) {
         store(element, 0, id);
     } else {
@@ -240,7 +251,7 @@ void OutputArray::expect_id(std::uint64_t element, std::uint32_t id) {
 }
 
 void OutputArray::expect_flag(std::uint64_t element, bool flag) {
-    if (!is_wanted() || is_wrong_) return;
+    if (!is_wanted() || is_wrong()) return;
     if (type_ == RW_UINT8) {
         store(element, 0, static_cast<std::uint8_t>(flag));
     } else if (type_ == RW_UINT32) {

@@ -1,6 +1,7 @@
 // Arrays of the caller's in every layout that rw_array and rw_output can describe, in memory that ends with the last element.
 #pragma once
 
+#include "fuzz/failure.h"
 #include "fuzz/input.h"
 #include "raywise/raywise.h"
 
@@ -72,8 +73,9 @@ public:
     OutputArray& operator=(OutputArray&&) = default;
 
     bool is_wanted() const { return output_.data != nullptr; }
-    bool is_wrong() const { return is_wrong_; }          // must be refused
-    bool may_be_refused() const { return is_doubtful_; } // no element, yet a layout in which elements would overlap
+    bool is_wrong() const { return has_wrong_type_ || has_wrong_reserved_ || has_wrong_strides_; } // must be refused
+    // What is wrong and may be wrong. The doubtful: no element, yet a layout in which elements would overlap.
+    void complain(Outcome& outcome) const;
     const rw_output& output() const { return output_; }
 
     void expect_number(std::uint64_t element, int component, double value);
@@ -96,7 +98,9 @@ private:
     rw_output output_{};
     std::int32_t type_ = RW_TYPE_DEFAULT;
     Layout layout_;
-    bool is_wrong_ = false;
+    bool has_wrong_type_ = false;
+    bool has_wrong_reserved_ = false;
+    bool has_wrong_strides_ = false;
     bool is_doubtful_ = false;
     std::vector<unsigned char> bytes_;
     std::vector<unsigned char> blank_;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace raywise::fuzz {
 namespace {
@@ -21,24 +22,44 @@ const char* ending_of(std::uint8_t first) {
 }
 
 struct Arrays {
-    const float* vertices;
+    rw_array vertices;
     const std::uint32_t* indices;
     std::uint64_t vertex_count;
     std::uint64_t triangle_count;
+
+    // What stands at `i` among the coordinates.
+    double coordinate(std::uint64_t i) const {
+        return vertices.type == RW_FLOAT64 ? static_cast<const double*>(vertices.data)[i]
+                                           : static_cast<double>(static_cast<const float*>(vertices.data)[i]);
+    }
 };
+
+// Whether a scene takes the mesh, and float32 would change it; and whether both is what the library said.
+bool check_coordinates(const Arrays& arrays) {
+    constexpr double most = static_cast<double>(std::numeric_limits<float>::max());
+    bool is_in_range = true;
+    bool fits_float32 = true;
+    for (std::uint64_t i = 0; i < 3 * arrays.vertex_count; ++i) {
+        const double x = arrays.coordinate(i);
+        demand(std::isfinite(x), "a mesh with a coordinate that is not finite");
+        is_in_range = is_in_range && std::fabs(x) <= most;
+        fits_float32 = fits_float32 && std::fabs(x) <= most && static_cast<double>(static_cast<float>(x)) == x;
+    }
+    demand(fits_float32 == (arrays.vertices.type == RW_FLOAT32), "a mesh of float64 that float32 would hold");
+    return is_in_range;
+}
 
 Arrays check_mesh(const rw_mesh* mesh, std::size_t file_size) {
     rw_triangles t{};
     t.struct_size = sizeof t;
     Outcome("mesh_triangles").check(rw_mesh_triangles(mesh, &t));
-    const Arrays arrays{static_cast<const float*>(t.vertices.data), static_cast<const std::uint32_t*>(t.indices.data),
-                        t.vertex_count, t.triangle_count};
-    demand(t.vertices.type == RW_FLOAT32 && t.indices.type == RW_UINT32 && t.flags == 0, "a mesh of another type");
+    const Arrays arrays{t.vertices, static_cast<const std::uint32_t*>(t.indices.data), t.vertex_count,
+                        t.triangle_count};
+    demand(
+        (t.vertices.type == RW_FLOAT32 || t.vertices.type == RW_FLOAT64) && t.indices.type == RW_UINT32 && t.flags == 0,
+        "a mesh of another type");
     // Every vertex and every corner takes at least a byte of the file.
     demand(arrays.vertex_count <= file_size && arrays.triangle_count <= file_size, "a mesh larger than its file");
-    for (std::uint64_t i = 0; i < 3 * arrays.vertex_count; ++i) {
-        demand(std::isfinite(arrays.vertices[i]), "a mesh with a coordinate that is not finite");
-    }
     for (std::uint64_t i = 0; i < 3 * arrays.triangle_count; ++i) {
         demand(arrays.indices[i] < arrays.vertex_count, "a mesh with an index out of range");
     }
@@ -69,15 +90,30 @@ rw_scene* make_scene(const rw_mesh* mesh, const char* structure, std::uint32_t f
     return scene;
 }
 
+// A file may hold numbers that no scene takes.
+void refuse_range(const rw_mesh* mesh) {
+    rw_triangles t{};
+    t.struct_size = sizeof t;
+    demand(rw_mesh_triangles(mesh, &t) == RW_OK, "a mesh could not be described twice");
+    rw_scene* scene = nullptr;
+    demand(rw_scene_create(nullptr, &scene) == RW_OK, "a scene could not be made");
+    demand(rw_scene_add_triangles(scene, &t, nullptr) == RW_ERROR_COORDINATE_RANGE, "a mesh out of range was added");
+    demand_printable_message();
+    rw_scene_release(scene);
+}
+
 void compare(const rw_scene* judge, const rw_scene* scene, const char* structure, const rw_ray& ray) {
     rw_hit wanted;
     rw_hit found;
     Outcome("intersect").check(rw_scene_intersect(judge, &ray, &wanted));
     Outcome("intersect").check(rw_scene_intersect(scene, &ray, &found));
     if (std::memcmp(&wanted, &found, sizeof found) == 0) return;
-    fail("%s: the judge says t %a primitive %u, it says t %a primitive %u; ray {{%a, %a, %a}, %a, {%a, %a, %a}, %a}",
-         structure, wanted.t, wanted.primitive, found.t, found.primitive, ray.origin[0], ray.origin[1], ray.origin[2],
-         ray.tmin, ray.direction[0], ray.direction[1], ray.direction[2], ray.tmax);
+    fail(
+        "%s: the judge says t %a u %a v %a primitive %u, it says t %a u %a v %a primitive %u; ray {{%a, %a, %a}, %a, "
+        "{%a, %a, %a}, %a}",
+        structure, wanted.t, wanted.u, wanted.v, wanted.primitive, found.t, found.u, found.v, found.primitive,
+        ray.origin[0], ray.origin[1], ray.origin[2], ray.tmin, ray.direction[0], ray.direction[1], ray.direction[2],
+        ray.tmax);
 }
 
 // At the corners and the middles of the first triangles, along an axis and from the origin.
@@ -89,9 +125,9 @@ void ask(const rw_scene* judge, const rw_scene* scene, const char* structure, co
             rw_ray along_axis{{0, 0, 0}, -INFINITY, {0, 0, 0}, INFINITY};
             rw_ray from_origin{{0, 0, 0}, 0, {0, 0, 0}, INFINITY};
             for (int axis = 0; axis < 3; ++axis) {
-                double target = static_cast<double>(arrays.vertices[3 * corners[0] + static_cast<unsigned>(axis)]);
+                double target = arrays.coordinate(3 * corners[0] + static_cast<unsigned>(axis));
                 for (int corner = 1; corner <= kind; ++corner) {
-                    target += static_cast<double>(arrays.vertices[3 * corners[corner] + static_cast<unsigned>(axis)]);
+                    target += arrays.coordinate(3 * corners[corner] + static_cast<unsigned>(axis));
                 }
                 target /= kind + 1;
                 along_axis.origin[axis] = target;
@@ -122,6 +158,11 @@ void run(const char* ending, const std::uint8_t* data, std::size_t size) {
     }
 
     const Arrays arrays = check_mesh(mesh, size);
+    if (!check_coordinates(arrays)) {
+        refuse_range(mesh);
+        rw_mesh_release(mesh);
+        return;
+    }
     rw_scene* judge = make_scene(mesh, "linear_scan", RW_TRIANGLES_SHARED);
     for (const std::string& structure : structure_names()) {
         rw_scene* scene = make_scene(mesh, structure.c_str(), 0);

@@ -130,8 +130,7 @@ public:
         struct_.emplace(input, hits);
         outcome_.fails_if(hits.flags != 0 || struct_->is_wrong(), RW_ERROR_INVALID_ARGUMENT);
         for (const OutputArray* each : {&t_, &uv_, &normal_, &instance_, &geometry_, &primitive_}) {
-            outcome_.fails_if(each->is_wrong(), RW_ERROR_INVALID_ARGUMENT);
-            outcome_.may_fail_if(each->may_be_refused(), RW_ERROR_INVALID_ARGUMENT);
+            each->complain(outcome_);
         }
     }
 
@@ -239,8 +238,8 @@ void ask_occluded_batch(Input& input, const Reference& reference, const std::vec
     if (absent) output = OutputArray();
     Outcome arguments = batch.outcome();
     arguments.add(batch.skip_outcome());
-    arguments.fails_if(output.is_wrong(), RW_ERROR_INVALID_ARGUMENT)
-        .may_fail_if(output.may_be_refused() || absent, RW_ERROR_INVALID_ARGUMENT)
+    output.complain(arguments);
+    arguments.may_fail_if(absent, RW_ERROR_INVALID_ARGUMENT)
         .fails_if(absent && !batch.rays().empty(), RW_ERROR_INVALID_ARGUMENT);
     if (!arguments.must_fail()) {
         for (std::size_t i = 0; i < batch.rays().size(); ++i)
@@ -384,8 +383,7 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
                "rw_once_intersect answers otherwise than the judge, or wrote although it failed");
     } else {
         OutputArray output(input, batch.rays().size(), 1, OutputKind::flags);
-        arguments.fails_if(output.is_wrong(), RW_ERROR_INVALID_ARGUMENT)
-            .may_fail_if(output.may_be_refused(), RW_ERROR_INVALID_ARGUMENT);
+        output.complain(arguments);
         if (!arguments.must_fail()) {
             for (std::size_t i = 0; i < batch.rays().size(); ++i)
                 output.expect_flag(i, !judge.all(batch.rays()[i], batch.skips(i)).empty());

@@ -199,5 +199,40 @@ TEST(ExactNormal, IsTheCrossProduct) {
     }
 }
 
+// Twice the area of a triangle in a plane.
+Fraction area(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (oracle::exact(b.x) - oracle::exact(a.x)) * (oracle::exact(c.y) - oracle::exact(a.y)) -
+           (oracle::exact(b.y) - oracle::exact(a.y)) * (oracle::exact(c.x) - oracle::exact(a.x));
+}
+
+TEST(Orientation, HasTheExactSign) {
+    Numbers numbers;
+    int signs[3] = {0, 0, 0};
+    const auto check = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
+        const Fraction wanted = area(a, b, c);
+        const int sign = wanted > 0 ? 1 : wanted < 0 ? -1 : 0;
+        ++signs[sign + 1];
+        ASSERT_EQ(orientation(a, b, c), sign);
+        ASSERT_EQ(orientation(b, c, a), sign);
+        ASSERT_EQ(orientation(b, a, c), -sign);
+    };
+    for (int i = 0; i < 30000; ++i) {
+        const int low = i % 3 == 0 ? -1074 : i % 3 == 1 ? -8 : -150;
+        const int high = i % 3 == 0 ? 1020 : i % 3 == 1 ? 0 : 60;
+        const Vec2 a(numbers.vector(low, high));
+        const Vec2 b(numbers.vector(low, high));
+        check(a, b, Vec2(numbers.vector(low, high)));
+        const Vec2 middle = 0.5 * a + 0.5 * b; // next to the line, or on it
+        check(a, b, middle);
+        check(a, b, Vec2(std::nextafter(middle.x, infinity), middle.y));
+        check(a, b, Vec2(std::nextafter(middle.x, -infinity), middle.y));
+        check(a, Vec2(a.x, b.y), Vec2(a.x, middle.y));
+        check(a, a, b);
+        const Vec2 whole(std::ldexp(std::floor(a.x), -40), std::ldexp(std::floor(a.y), -40));
+        if (i % 3 == 1) check(whole, whole * 3.0, whole * -5.0);
+    }
+    for (const int count : signs) EXPECT_GT(count, 30000);
+}
+
 } // namespace
 } // namespace raywise

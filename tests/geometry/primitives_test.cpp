@@ -84,6 +84,20 @@ TEST(Primitives, NormalsFollowTheRightHand) {
     EXPECT_EQ(unit_normal(primitives.corners(1)), Vec3(0, 0, -1));
 }
 
+// Structures may keep corners without the signs of zeros, and answer with the same bits all the same.
+TEST(Primitives, NormalsDoNotDependOnTheSignsOfZeros) {
+    for (unsigned signs = 0; signs < 512; ++signs) {
+        Corners corners = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
+        for (unsigned i = 0; i < 9; ++i) {
+            double& x = corners[i / 3][static_cast<int>(i % 3)];
+            if (x == 0.0 && (signs >> i & 1u) != 0) x = -0.0;
+        }
+        const Vec3 normal = unit_normal(corners);
+        EXPECT_EQ(normal, Vec3(0, -1, 0));
+        EXPECT_FALSE(std::signbit(normal.x) || std::signbit(normal.z)) << signs;
+    }
+}
+
 TEST(Primitives, BoundsHoldEveryBox) {
     for (const Scene& scene : oracle::hard_scenes()) {
         const Primitives primitives = oracle::primitives_of(scene);

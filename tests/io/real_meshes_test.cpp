@@ -25,6 +25,8 @@ TEST(RealMeshes, BunnyHasItsTriangles) {
     const LoadedMesh mesh = load_mesh(path);
     EXPECT_EQ(mesh.triangle_count(), 69451u);
     EXPECT_EQ(mesh.face_count, 69451u);
+    EXPECT_TRUE(mesh.is_float64()) << "six decimals, which float32 does not hold";
+    EXPECT_EQ(mesh.coordinate(0), -0.037830);
 }
 
 TEST(RealMeshes, SuzanneHasQuads) {
@@ -40,11 +42,11 @@ TEST(RealMeshes, WoodyIsFlat) {
     const std::filesystem::path path = file_named("woody.obj");
     if (path.empty()) GTEST_SKIP() << "no data folder";
     const LoadedMesh mesh = load_mesh(path);
-    float lower = mesh.vertices[2];
-    float upper = lower;
-    for (std::size_t i = 2; i < mesh.vertices.size(); i += 3) {
-        lower = std::min(lower, mesh.vertices[i]);
-        upper = std::max(upper, mesh.vertices[i]);
+    double lower = mesh.coordinate(2);
+    double upper = lower;
+    for (std::size_t i = 2; i < 3 * mesh.vertex_count(); i += 3) {
+        lower = std::min(lower, mesh.coordinate(i));
+        upper = std::max(upper, mesh.coordinate(i));
     }
     EXPECT_EQ(lower, upper);
 }
@@ -74,6 +76,7 @@ TEST(RealMeshes, IgeaIsReadFromPly) {
     const LoadedMesh mesh = load_mesh(path);
     EXPECT_EQ(mesh.triangle_count(), mesh.face_count);
     EXPECT_GT(mesh.face_count, 50000u);
+    EXPECT_FALSE(mesh.is_float64()) << "as its header says";
 }
 
 } // namespace

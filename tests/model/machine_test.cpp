@@ -1,11 +1,17 @@
 #include "model/machine.h"
 
+#include "base/instruction_set.h"
+#include "geometry/every_target.h"
 #include "model/cache_sizes.h"
 #include "model/cpu_identity.h"
 #include "model/cpu_quota.h"
+#include "profile_fixture.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
+
+#include <cctype>
+#include <set>
 
 namespace raywise {
 namespace {
@@ -16,12 +22,12 @@ TEST(MachineKey, IsAsDocumented) {
     machine.family = 26;
     machine.model = 2;
     machine.stepping = 1;
-    machine.instruction_set = "x86-64";
+    machine.instruction_set = "AVX3";
     machine.l3_bytes = 32u << 20;
     machine.threads = 2;
-    EXPECT_EQ(machine.key(), "authenticamd-26-2-1-x86-64-l3-32m-t2");
+    EXPECT_EQ(machine.key(), "authenticamd-26-2-1-avx3-l3-32m-t2");
     machine.l3_bytes = 1280u << 10;
-    EXPECT_EQ(machine.key(), "authenticamd-26-2-1-x86-64-l3-1280k-t2");
+    EXPECT_EQ(machine.key(), "authenticamd-26-2-1-avx3-l3-1280k-t2");
 }
 
 TEST(MachineKey, IsAPlainFileNameWhateverTheProcessorSays) {
@@ -43,11 +49,49 @@ TEST(ThisMachine, IsKnown) {
     EXPECT_EQ(machine.precision, "float64");
     EXPECT_EQ(machine.brand.find('\0'), std::string::npos);
 #if defined(__x86_64__)
-    EXPECT_EQ(machine.instruction_set, "x86-64");
     EXPECT_EQ(machine.vendor.size(), 12u);
     EXPECT_GT(machine.family, 0u);
 #endif
+    EXPECT_EQ(machine.instruction_set, instruction_set());
     EXPECT_EQ(&machine, &this_machine());
+}
+
+// What kernels use, machine and key tell; costs measured with one level are not taken for those of another.
+TEST(ThisMachine, TellsTheInstructionSetInUse) {
+    std::set<std::string> keys;
+    std::size_t targets = 0;
+    on_every_target([&] {
+        ++targets;
+        const std::string name = hwy::TargetName(hwy::SupportedAndGeneratedTargets().front());
+        EXPECT_EQ(instruction_set(), name);
+        const Machine machine = look_at_machine();
+        EXPECT_EQ(machine.instruction_set, name);
+        std::string lower;
+        for (const char c : name) lower += c == '_' ? '-' : static_cast<char>(std::tolower(c));
+        EXPECT_NE(machine.key().find("-" + lower + "-l3-"), std::string::npos) << machine.key();
+        keys.insert(machine.key());
+
+        Profile profile = sample_profile();
+        profile.machine = machine;
+        std::string reason;
+        EXPECT_EQ(check_machine(profile, machine, reason), Status::OK);
+        profile.machine.instruction_set = "OTHER";
+        EXPECT_EQ(check_machine(profile, machine, reason), Status::PROFILE_MACHINE);
+        EXPECT_EQ(reason, "machine.instruction_set: the profile has \"OTHER\", this machine \"" + name + "\"");
+    });
+    EXPECT_EQ(keys.size(), targets);
+    EXPECT_EQ(instruction_set(), this_machine().instruction_set);
+}
+
+// A host program that turns a level off gets the key of the next one.
+TEST(ThisMachine, FollowsTargetsThatAreDisabled) {
+    const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+    if (targets.size() > 1) {
+        hwy::DisableTargets(targets.front());
+        EXPECT_EQ(look_at_machine().instruction_set, hwy::TargetName(targets[1]));
+        hwy::DisableTargets(0);
+    }
+    EXPECT_EQ(look_at_machine().instruction_set, hwy::TargetName(targets.front()));
 }
 
 TEST(CpuIdentity, ReadsAnArmProcessor) {
@@ -59,7 +103,6 @@ TEST(CpuIdentity, ReadsAnArmProcessor) {
     EXPECT_EQ(cpu.family, 8u);
     EXPECT_EQ(cpu.model, 0xd0cu);
     EXPECT_EQ(cpu.stepping, 0x31u);
-    EXPECT_EQ(cpu.instruction_set, "aarch64");
 }
 
 TEST(CpuIdentity, OfNothingIsUnknown) { EXPECT_EQ(arm_identity("").vendor, "unknown"); }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace raywise {
@@ -81,6 +82,74 @@ TEST_F(FindProfile, OnlyBadFilesLeaveTheGenericConstants) {
     EXPECT_EQ(to_json(profile), to_json(generic_profile()));
 }
 
+// Every combination of what may be in the three places: the first valid file is taken, the first that was passed over is told,
+// and the texts say the same as source, status and reason.
+TEST_F(FindProfile, SourceStatusReasonAndTextAgree) {
+    Profile other_level = sample_profile();
+    other_level.machine.instruction_set = "OTHER";
+    const std::string whole = to_json(sample_profile());
+    struct State {
+        const char* name;
+        std::string content; // empty: there is no file
+        bool is_asked_for;   // whether a place names it at all
+        Status status;       // of a file that was looked at; OK: it is taken
+    };
+    const State states[] = {
+        {"unset", "", false, Status::OK},
+        {"missing", "", true, Status::PROFILE_NOT_FOUND},
+        {"good", whole, true, Status::OK},
+        {"truncated", whole.substr(0, whole.size() / 2), true, Status::PROFILE_MALFORMED},
+        {"other level", to_json(other_level), true, Status::PROFILE_MACHINE},
+    };
+    const ProfileSource sources[] = {ProfileSource::environment, ProfileSource::user, ProfileSource::system};
+    const char* const labels[] = {" (RAYWISE_CALIBRATION)", " (user)", " (system)"};
+    const auto path_in = [&](int place, const State& state) {
+        const std::string name = "place" + std::to_string(place) + ".json";
+        std::filesystem::remove(folder_ / name);
+        if (!state.is_asked_for) return std::filesystem::path();
+        return state.content.empty() ? folder_ / name : folder_.write(name, state.content);
+    };
+    for (const State& environment : states) {
+        for (const State& user : states) {
+            for (const State& system : states) {
+                SCOPED_TRACE(std::string(environment.name) + ", " + user.name + ", " + system.name);
+                const State* const found[] = {&environment, &user, &system};
+                const std::filesystem::path paths[] = {path_in(0, environment), path_in(1, user), path_in(2, system)};
+                ProfileSource source = ProfileSource::generic;
+                Status status = Status::OK;
+                std::string path, label, passed_over;
+                for (int place = 0; place < 3 && source == ProfileSource::generic; ++place) {
+                    const State& state = *found[place];
+                    if (state.status == Status::OK && !state.content.empty()) {
+                        source = sources[place];
+                        path = paths[place].string();
+                        label = path + labels[place];
+                    } else if (status == Status::OK && (place == 0 || !state.content.empty())) {
+                        status = state.status; // only the environment's file is missed
+                        passed_over = paths[place].string();
+                    }
+                }
+                if (source == ProfileSource::generic) label = "generic constants, compiled in";
+
+                const Profile profile = find_profile({paths[0].string(), paths[1], paths[2]});
+                EXPECT_EQ(profile.source, source);
+                EXPECT_EQ(profile.path, path);
+                EXPECT_EQ(profile.status, status);
+                EXPECT_EQ(profile.reason.empty(), status == Status::OK);
+                if (status != Status::OK) {
+                    EXPECT_EQ(profile.reason.rfind(passed_over + ": ", 0), 0u) << profile.reason;
+                }
+                EXPECT_EQ(source_text(profile), label);
+                std::string text = to_text(profile);
+                std::replace(text.begin(), text.end(), '\n', ' ');
+                EXPECT_EQ(text.rfind("profile     " + label + " ", 0), 0u) << text;
+                EXPECT_EQ(text.find("passed over " + passed_over + ": ") != std::string::npos, status != Status::OK);
+                EXPECT_EQ(text.find("generic") != std::string::npos, source == ProfileSource::generic);
+            }
+        }
+    }
+}
+
 TEST_F(FindProfile, LooksWhereTheEnvironmentSays) {
     ::setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
     ::unsetenv("RAYWISE_CALIBRATION");
@@ -98,6 +167,23 @@ TEST_F(FindProfile, LooksWhereTheEnvironmentSays) {
     ::setenv("RAYWISE_CALIBRATION", "", 1); // as if it were not set
     EXPECT_EQ(find_profile().source, ProfileSource::user);
     ::unsetenv("RAYWISE_CALIBRATION");
+}
+
+TEST_F(FindProfile, WhatWasFoundFirstIsKept) {
+    ::setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
+    const std::filesystem::path named = put("named.json", 0.1);
+    ::setenv("RAYWISE_CALIBRATION", named.c_str(), 1);
+    const std::shared_ptr<const Profile> kept = kept_profile();
+    EXPECT_EQ(kept->source, ProfileSource::environment);
+    EXPECT_EQ(kept->provenance.spread, 0.1);
+
+    put("named.json", 0.2);
+    EXPECT_EQ(load_profile(named).provenance.spread, 0.2); // read anew
+    EXPECT_EQ(find_profile().provenance.spread, 0.2);
+    EXPECT_EQ(kept_profile(), kept);
+    ::unsetenv("RAYWISE_CALIBRATION");
+    EXPECT_EQ(kept_profile(), kept);
+    EXPECT_EQ(kept->provenance.spread, 0.1);
 }
 
 TEST_F(FindProfile, TheUsersFolderIsAbsoluteOrNone) {

@@ -269,8 +269,9 @@ std::vector<Scene> real_meshes(std::size_t most_triangles) {
         const LoadedMesh mesh = load_mesh(folder / file);
         if (mesh.indices.size() / 3 > most_triangles) continue;
         Scene scene{file, {}, {}};
-        for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3) {
-            scene.vertices.emplace_back(mesh.vertices[i], mesh.vertices[i + 1], mesh.vertices[i + 2]);
+        for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+            const Vec3 vertex(mesh.coordinate(3 * i), mesh.coordinate(3 * i + 1), mesh.coordinate(3 * i + 2));
+            scene.vertices.push_back(as_float(vertex));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             scene.triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});

@@ -35,8 +35,20 @@ class ClosedError(InvalidArgument):
     """A scene, view, mesh or profile was used after close()."""
 
 
+class ReservedMember(InvalidArgument):
+    """A reserved member of a struct is not zero. The package fills structs itself, so users do not meet this."""
+
+
+class OverlappingOutput(InvalidArgument):
+    """The strides of an output array let its elements overlap."""
+
+
+class SharedMemory(InvalidArgument):
+    """Two outputs, or an output and the rays, share memory."""
+
+
 class OutOfMemory(RaywiseError, MemoryError):
-    """An allocation failed; nothing was changed."""
+    """An allocation failed; nothing was changed but a batch's outputs."""
 
 
 class NotFinite(RaywiseError, ValueError):
@@ -52,7 +64,7 @@ class IndexOutOfRange(RaywiseError, IndexError, ValueError):
 
 
 class TooMany(RaywiseError, ValueError):
-    """More vertices, triangles or rays than the ids can count."""
+    """More vertices or triangles than the ids can count, or more rays than there may be."""
 
 
 class AlreadyCommitted(RaywiseError):
@@ -72,7 +84,7 @@ class WrongStructure(RaywiseError):
 
 
 class RayCount(RaywiseError, ValueError):
-    """An expected ray count of zero, or an absurd one."""
+    """An expected ray count of zero, or above 10^15."""
 
 
 class Capacity(RaywiseError):
@@ -152,6 +164,9 @@ CLASSES: Dict[int, Type[RaywiseError]] = {
     c.RW_PROFILE_EPOCH: ProfileError,
     c.RW_PROFILE_MACHINE: ProfileError,
     c.RW_PROFILE_RANGE: ProfileError,
+    c.RW_ERROR_RESERVED: ReservedMember,
+    c.RW_ERROR_OVERLAP: OverlappingOutput,
+    c.RW_ERROR_SHARED_MEMORY: SharedMemory,
 }
 
 

@@ -54,10 +54,10 @@ class GridStatistics:
     max_references: int  # eq. 2
     sparseness: float  # eq. 1: empty cells / cells
     mean: float  # eq. 3: references per cell
-    variance: float  # eq. 4
+    variance: float  # eq. 4: squares over cells - 1
     standard_deviation: float
     skewness: float  # eq. 5; 0 when the variance is 0
-    kurtosis: float  # eq. 6; 0 when the variance is 0
+    kurtosis: float  # eq. 6: excess, minus 3; 0 when the variance is 0
 
 
 @dataclass(frozen=True)

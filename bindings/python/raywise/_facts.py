@@ -10,7 +10,7 @@ from ._library import lib
 
 
 def version() -> str:
-    """The version of the library that was loaded, e.g. "0.1.0"; it may differ from the package's. C: rw_version."""
+    """The version of the library that was loaded, e.g. "0.2.0"; it may differ from the package's. C: rw_version."""
     numbers = (ctypes.c_uint32(), ctypes.c_uint32(), ctypes.c_uint32())
     check(lib.rw_version(*(ctypes.byref(number) for number in numbers)))
     return ".".join(str(number.value) for number in numbers)

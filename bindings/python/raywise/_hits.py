@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _declarations as c
 from ._arrays import Array, FloatArray, Shape, output_array, overlap
+from ._errors import SharedMemory
 from ._words import sized
 
 IdArray = Union[npt.NDArray[np.uint32], npt.NDArray[np.uint64]]
@@ -201,7 +202,7 @@ def require_apart(outputs: Mapping[str, Array], inputs: Mapping[str, Array]) -> 
     for name, array in outputs.items():
         for other_name, other in seen:
             if overlap(array, other):
-                raise ValueError(f"{name} overlaps {other_name} in memory")
+                raise SharedMemory(c.RW_ERROR_SHARED_MEMORY, f"{name} overlaps {other_name} in memory")
         seen.append((name, array))
 
 

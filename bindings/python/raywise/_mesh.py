@@ -53,7 +53,10 @@ class Mesh(Handle):
     """
 
     def __init__(self, path: PathLike) -> None:
-        """Reads a file; the ending tells the format. Polygons are cut into triangle fans in the order of their corners.
+        """Reads a file; the ending tells the format. A face of n corners becomes n - 2 triangles that cover its inside, also
+        where it is concave; a convex one the fan about its first corner.
+
+        Coordinates are as written: vertices is float64 where float32 would change any of them, else float32.
 
         Raises FileNotFoundError, OSError (unreadable), ValueError (MeshFormat, NoFaces, BadPolygon, IndexOutOfRange,
         NotFinite, TooMany) or MemoryError.
@@ -109,7 +112,8 @@ class Mesh(Handle):
         if self.closed:
             return "<Mesh, closed>"
         _, triangles = self._triangles()
-        return f"<Mesh of {triangles.vertex_count} vertices and {triangles.triangle_count} triangles>"
+        dtype = np.dtype(NUMPY_TYPES[triangles.vertices.type or c.RW_FLOAT32])
+        return f"<Mesh of {triangles.vertex_count} vertices and {triangles.triangle_count} triangles, {dtype}>"
 
 
 @dataclass(frozen=True)

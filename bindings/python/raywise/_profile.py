@@ -22,10 +22,12 @@ class Profile(Handle):
     def __init__(self, path: Optional[PathLike] = None, *, fallback: bool = False) -> None:
         """Reads a profile.
 
-        path: the file; None: the first valid one of the file named by RAYWISE_CALIBRATION, the user's cache folder
-        and the system's folder, or else the constants compiled into the library.
+        path: the file, read anew each time; None: the first valid one of the file named by RAYWISE_CALIBRATION, the
+        user's cache folder and the system's folder, or else the constants compiled into the library: looked up once in
+        a process and kept; scenes without a profile of their own have the same one.
         fallback: what to do when the file at `path` cannot be used. False: raise ProfileError (ProfileNotFound, which
-        is a FileNotFoundError as well). True: use the next valid one and say why in `status`, as always without a path.
+        is a FileNotFoundError as well). True: use the constants compiled into the library and say why in `status`.
+        Without a path files that cannot be used are always passed over, and `status` says why the first one was.
 
         Raises ProfileError, MemoryError.
 
@@ -54,12 +56,12 @@ class Profile(Handle):
 
     @property
     def status(self) -> int:
-        """RW_OK, or why the file asked for was passed over (RW_PROFILE_). C: rw_profile_inspect."""
+        """RW_OK, or why a file that comes before `source` was passed over (RW_PROFILE_). C: rw_profile_inspect."""
         return int(self._info().status)
 
     @property
     def status_text(self) -> str:
-        """`status` in words. C: rw_status_text."""
+        """`status` in words; str() of the profile names the file as well. C: rw_status_text."""
         return status_text(self.status)
 
     @property

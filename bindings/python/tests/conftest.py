@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import pathlib
 from typing import Any, Callable, Iterator, List, Tuple
 
 import pytest
 from hypothesis import settings
 
-import raywise
-from raywise import _library, _once, _queries, _scene
+# Before the library looks for a profile, which it does once in a process: the same whatever this machine was measured with.
+os.environ["RAYWISE_CALIBRATION"] = "builtin"
+
+import raywise  # noqa: E402
+from raywise import _library, _once, _queries, _scene  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 

@@ -110,13 +110,13 @@ def test_an_output_that_does_not_fit_is_named(
 
 def test_outputs_may_not_overlap_the_rays(scene: raywise.Scene) -> None:
     origins = np.zeros((5, 3))
-    with pytest.raises(ValueError, match=r"out\['normal'\] overlaps origins"):
+    with pytest.raises(raywise.SharedMemory, match=r"out\['normal'\] overlaps origins"):
         scene.intersect(origins, RAYS[1], out={"normal": origins})
 
 
 def test_outputs_may_not_overlap_each_other(scene: raywise.Scene) -> None:
     numbers = np.zeros(20)
-    with pytest.raises(ValueError, match="overlaps"):
+    with pytest.raises(raywise.SharedMemory, match="overlaps"):
         scene.intersect(*RAYS, out={"t": numbers[:5], "uv": numbers[4:14].reshape(5, 2)})
 
 

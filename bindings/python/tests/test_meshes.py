@@ -28,11 +28,32 @@ def test_a_file_becomes_arrays(pyramid: pathlib.Path) -> None:
         assert mesh.triangles.shape == (6, 3) and mesh.triangles.dtype in (np.uint32, np.uint64)
         assert mesh.face_count == 5
         assert mesh.face_of_triangle.tolist() == [0, 0, 1, 2, 3, 4]
-        assert "5 vertices and 6 triangles" in repr(mesh)
+        assert repr(mesh) == "<Mesh of 5 vertices and 6 triangles, float32>"
 
 
-def test_polygons_are_fans_in_the_order_of_their_corners(pyramid: pathlib.Path) -> None:
+def test_coordinates_are_as_written(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "utm.obj"
+    path.write_text("v 500000.1 5183526.3 100.25\nv 500000.2 5183526.3 100.25\nv 500000.2 5183526.4 100.25\nf 1 2 3\n")
+    mesh = raywise.Mesh(path)
+    assert mesh.vertices.dtype == np.float64 and repr(mesh).endswith("float64>")
+    assert mesh.vertices[1].tolist() == [500000.2, 5183526.3, 100.25]
+    scene = raywise.Scene(mesh)
+    assert "vertices: float64\n" in str(scene.explain()) and scene.explain().json["vertices"] == "float64"
+    assert scene.intersect([500000.19, 5183526.32, 200], [0, 0, -1]).t == 99.75
+    scene = raywise.Scene(mesh.vertices.astype(np.float32), mesh.triangles)
+    assert scene.explain().json["vertices"] == "float32"
+
+
+def test_convex_polygons_are_fans_in_the_order_of_their_corners(pyramid: pathlib.Path) -> None:
     assert raywise.Mesh(pyramid).triangles[:2].tolist() == [[3, 2, 1], [3, 1, 0]]
+
+
+def test_concave_polygons_have_no_surface_outside(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "notch.off"
+    path.write_text("OFF\n8 1 0\n0 0 0\n3 0 0\n3 3 0\n2 3 0\n2 1 0\n1 1 0\n1 3 0\n0 3 0\n8 0 1 2 3 4 5 6 7\n")
+    scene = raywise.Scene(raywise.Mesh(path))
+    origins = [[1.5, 2, 1], [0.5, 2, 1], [2.5, 2, 1], [1.5, 0.5, 1]]
+    assert scene.intersect(origins, np.tile([0.0, 0, -1], (4, 1))).hit.tolist() == [False, True, True, True]
 
 
 def test_the_arrays_are_the_meshs_own_and_read_only(pyramid: pathlib.Path) -> None:

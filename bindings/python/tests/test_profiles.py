@@ -3,18 +3,53 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
+import subprocess
+import sys
 
 import pytest
 from samples import rays, same_bits, soup
 
 import raywise
 from raywise import _declarations as c
+from raywise._errors import status_text
 
 
-@pytest.fixture(autouse=True)
-def no_profile_of_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("RAYWISE_CALIBRATION", "builtin")
+def in_a_process(environment: "dict[str, str]", program: str) -> str:
+    """What a program prints that looks for its profile anew: a process does so once."""
+    done = subprocess.run(
+        [sys.executable, "-c", "import raywise\n" + program],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout
+
+
+def test_a_profile_is_found_once_and_kept(tmp_path: pathlib.Path) -> None:
+    broken = tmp_path / "broken.json"
+    broken.write_text("{")
+    shown = in_a_process(
+        {"RAYWISE_CALIBRATION": str(broken), "XDG_CACHE_HOME": str(tmp_path)},
+        "import os\n"
+        "for _ in range(2):\n"
+        "    profile = raywise.profile()\n"
+        "    print(profile.status, profile.source)\n"
+        "    print(profile.status_text)\n"
+        "    print('passed over' in str(profile), 'generic constants' in str(profile))\n"
+        "    os.environ['RAYWISE_CALIBRATION'] = 'builtin'\n",
+    )
+    text = "a calibration profile was passed over: it is truncated or malformed"
+    assert shown.splitlines() == [f"{c.RW_PROFILE_MALFORMED} generic", text, "True True"] * 2
+
+
+def test_the_words_of_no_status_say_what_is_used_instead() -> None:
+    statuses = [value for name, value in vars(c).items() if name.startswith("RW_PROFILE_") and "SOURCE" not in name]
+    texts = [status_text(status) for status in statuses]
+    assert len(texts) == 7 and all(text.startswith("a calibration profile was passed over: ") for text in texts)
+    assert not any("generic" in text for text in texts)
 
 
 def test_the_generic_constants_are_always_there() -> None:

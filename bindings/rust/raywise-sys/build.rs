@@ -8,7 +8,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The library this crate's declarations were made for; pkg-config refuses older ones.
-const LEAST_VERSION: &str = "0.1.0";
+const LEAST_VERSION: &str = "0.2.0";
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -11,12 +11,24 @@
  *   element that was wrong.
  * - Structs. Option and result structs begin with `struct_size`: set it to sizeof the struct. All other
  *   bytes zero is the default. Later versions may add members at the end; a smaller struct_size
- *   from an older program stays valid.
+ *   from an older program stays valid. Members called `reserved` are 0, which is checked: RW_ERROR_RESERVED.
  * - Arrays are a pointer, an element type and byte strides (rw_array). No alignment, no padding and no
- *   readable byte beyond the last element is asked for. The caller's input is never written to.
+ *   readable byte beyond the last element is asked for. The caller's input is never written to. No byte may belong to two
+ *   outputs, or to an output and to the rays, which is checked: RW_ERROR_SHARED_MEMORY. Outputs whose bytes alternate, such as
+ *   members of one struct for each ray, are fine.
+ * - Texts and files are the same in every locale: a decimal point is a point.
  * - Handles (rw_scene, rw_view, rw_profile, rw_mesh) are counted: *_create and *_load hand out one
  *   reference, *_retain adds one, *_release gives one back; releasing NULL does nothing. Functions that
  *   take a const handle may run at the same time in any number of threads; others need the handle alone.
+ * - Threads of the library. The first commit, refit, view or batch that is worth it starts them: of 1,024 triangles, or 512 rays, or
+ *   more, with an option `threads` that is not 1 and no parallel_for. They are oneTBB's, at most one fewer than processors the process
+ *   may use, serve all calls, and stay, asleep while there is nothing to do. Single rays, smaller calls, and loading the library
+ *   start none. Calls of several threads of the host do not wait for each other (only mesh files are read one at a time).
+ * - Memory. What a call took is given back when it returns, whatever the number of calls before. Kept for the next one is the place in
+ *   which threads meet: for each value of `threads` in use as many as there were calls at once, 7 kB each and 2 kB for
+ *   each thread above two.
+ * - Fork. A child may go on with all that it inherits, except from within a callback. Where the parent had threads of the library, the
+ *   child has none and its calls work in the calling thread alone, or in a parallel_for; otherwise it starts its own.
  * - Rays. t is measured in units of the direction's length. A hit counts when tmin <= t <= tmax. A ray
  *   with a NaN anywhere, a zero direction, an infinite origin or direction, or tmin > tmax is a miss.
  *   Components of a direction below 2^-500 of its largest, that one rounded down to a power of two, count as zero.
@@ -54,7 +66,7 @@ extern "C" {
  * ------------------------------------------------------------------------------------------------ */
 
 #define RW_VERSION_MAJOR 0
-#define RW_VERSION_MINOR 1
+#define RW_VERSION_MINOR 2
 #define RW_VERSION_PATCH 0
 
 /* The major number of the binary interface; the 1 of libraywise.so.1. */
@@ -75,17 +87,17 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
  * ------------------------------------------------------------------------------------------------ */
 
 #define RW_OK 0
-#define RW_ERROR_INVALID_ARGUMENT 1   /* NULL, an unknown constant, a struct_size that cannot be */
-#define RW_ERROR_OUT_OF_MEMORY 2      /* an allocation failed; nothing was changed */
+#define RW_ERROR_INVALID_ARGUMENT 1   /* NULL, an unknown constant, an impossible struct_size, a number out of range */
+#define RW_ERROR_OUT_OF_MEMORY 2      /* an allocation failed; nothing was changed but a batch's outputs */
 #define RW_ERROR_NOT_FINITE 3         /* a vertex has a NaN or infinite coordinate */
 #define RW_ERROR_COORDINATE_RANGE 4   /* a float64 vertex lies beyond what a float32 box can hold */
 #define RW_ERROR_INDEX_OUT_OF_RANGE 5 /* an index or id names a vertex, geometry or triangle that is not there */
-#define RW_ERROR_TOO_MANY 6           /* more vertices, triangles or rays than the ids can count */
+#define RW_ERROR_TOO_MANY 6           /* more vertices, triangles or rays than there may be */
 #define RW_ERROR_ALREADY_COMMITTED 7  /* a committed scene cannot be changed */
 #define RW_ERROR_NOT_COMMITTED 8      /* the scene has to be committed first */
 #define RW_ERROR_UNKNOWN_STRUCTURE 9  /* no structure has that name */
 #define RW_ERROR_WRONG_STRUCTURE 10   /* the question has no meaning for the structure in use */
-#define RW_ERROR_RAY_COUNT 11         /* an expected ray count of zero, or an absurd one */
+#define RW_ERROR_RAY_COUNT 11         /* an expected ray count of zero, or above RW_RAYS_LIMIT */
 #define RW_ERROR_CAPACITY 12          /* the output is too small; `needed` says how large it has to be */
 #define RW_ERROR_CANCELLED 13         /* the progress callback asked to stop; nothing was changed */
 #define RW_ERROR_MEMORY_LIMIT 14      /* no candidate fits the memory limit */
@@ -97,16 +109,22 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
 #define RW_ERROR_HOST_PARALLEL 20     /* the caller's parallel-for left a task out or ran one twice */
 #define RW_ERROR_INTERNAL 21          /* an unexpected failure; please report it */
 
-/* Why a calibration profile was not used. The library then works with its compiled-in generic constants. */
+/* Why a calibration profile was passed over. What is used instead, the next valid file or the generic constants that are compiled
+ * in, is told by rw_profile_info. */
 #define RW_PROFILE_NOT_FOUND 22  /* there is no file at that path */
 #define RW_PROFILE_UNREADABLE 23 /* it cannot be opened, is not a plain file, or is over 1 MiB */
 #define RW_PROFILE_MALFORMED 24  /* truncated, not JSON, or a member is missing or of the wrong type */
 #define RW_PROFILE_SCHEMA 25     /* written in another format version */
 #define RW_PROFILE_EPOCH 26      /* measured on kernels that have changed since */
-#define RW_PROFILE_MACHINE 27    /* measured on another machine */
+#define RW_PROFILE_MACHINE 27    /* measured on another machine, or with another instruction set on this one */
 #define RW_PROFILE_RANGE 28      /* a constant is negative, not finite or beyond belief */
 
-#define RW_STATUS_COUNT 29
+/* Since 0.2. */
+#define RW_ERROR_RESERVED 29      /* a reserved member is not zero */
+#define RW_ERROR_OVERLAP 30       /* the strides of an output let its elements overlap, or repeat one */
+#define RW_ERROR_SHARED_MEMORY 31 /* a byte belongs to two outputs, or to an output and to the rays */
+
+#define RW_STATUS_COUNT 32
 
 /* Does: puts a status into words.
  * status: any value.
@@ -148,13 +166,14 @@ typedef struct rw_array {
     int32_t reserved;         /* 0 */
 } rw_array;
 
-/* Output, laid out as rw_array. data NULL: not wanted. RW_REPEAT is an error here, as are elements that overlap. */
+/* Output, laid out as rw_array. data NULL: not wanted. RW_REPEAT is an error here, as are elements that overlap
+ * (RW_ERROR_OVERLAP) and outputs that share a byte (RW_ERROR_SHARED_MEMORY). */
 typedef struct rw_output {
     void *data;
     int64_t stride;
     int64_t component_stride;
     int32_t type;
-    int32_t reserved;
+    int32_t reserved; /* 0 */
 } rw_output;
 
 /* ------------------------------------------------------------------------------------------------
@@ -188,15 +207,18 @@ typedef struct rw_profile rw_profile;
 #define RW_FORMAT_TEXT 0
 #define RW_FORMAT_JSON 1
 
-/* Does: reads a profile. With a path: that file. With NULL: the first valid one of the file named by the
- * environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the user's cache folder
+/* Does: hands out a profile. With a path: reads that file, anew with each call. With NULL: the first valid one of the file
+ * named by the environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the user's cache folder
  * ($XDG_CACHE_HOME or ~/.cache, then raywise/<machine key>.json) and the system's folder
- * (/etc/raywise/<machine key>.json).
+ * (/etc/raywise/<machine key>.json). The machine key names the processor, the instruction set that the library uses on it, the
+ * last cache's size and the number of usable threads; `raywise-calibrate --help` prints these paths.
+ * These places are looked at once in a process, by the first call that needs a profile and is given none; it is kept, and
+ * what files and environment say later goes unseen. A profile written since can be loaded by its path.
  * path: UTF-8, or NULL.
  * profile: receives a profile the caller must release; not NULL.
  * Returns: RW_OK when the file was used, or when path is NULL and there was no file at all. An RW_PROFILE_ status
- * when a file could not be used: *profile is then set all the same, to the next valid file's or the
- * generic constants. RW_ERROR_INVALID_ARGUMENT and RW_ERROR_OUT_OF_MEMORY set nothing.
+ * when a file was passed over (that of the first): *profile is then set all the same, with a path to the generic constants,
+ * with NULL to the next valid file's or the generic constants. RW_ERROR_INVALID_ARGUMENT and RW_ERROR_OUT_OF_MEMORY set nothing.
  * Threads: any. Since: 0.1. */
 RW_API int32_t rw_profile_load(const char *path, rw_profile **profile);
 
@@ -209,7 +231,7 @@ RW_API int32_t rw_profile_release(const rw_profile *profile);
 typedef struct rw_profile_info {
     uint32_t struct_size;
     int32_t source;      /* RW_PROFILE_SOURCE_ */
-    int32_t status;      /* RW_OK, or why the file asked for was passed over */
+    int32_t status;      /* RW_OK, or why a file was passed over that comes before `source`: the first of them */
     uint32_t epoch;      /* calibration epoch of the constants */
     const char *path;    /* of the file in use; empty for the generic constants */
     const char *machine; /* key of the machine it was measured on; "generic" */
@@ -217,7 +239,7 @@ typedef struct rw_profile_info {
     const char *tool;    /* the program and version that measured it */
     double spread;       /* relative spread of repeated timings, 0.05 = 5 % */
     uint32_t threads;    /* threads the machine offered when it was measured */
-    uint32_t reserved;
+    uint32_t reserved;   /* receives 0 */
 } rw_profile_info;
 
 /* Does: tells where a profile came from.
@@ -259,8 +281,18 @@ typedef struct rw_triangles {
 /* A mesh read from a file. */
 typedef struct rw_mesh rw_mesh;
 
-/* Does: reads an OBJ, PLY, OFF or STL file. Polygons are cut into triangle fans in the order of their corners.
- * path: UTF-8, not NULL; the ending tells the format.
+/* Does: reads an OBJ, PLY, OFF or STL file. A face of n corners becomes n - 2 triangles of its corners, faces in the order of the
+ * file. A convex face becomes the fan about its first corner: (0, 1, 2), (0, 2, 3) and so on. Any other is cut ear by ear, as seen
+ * in the coordinate plane where its area is largest, on exact signs: the corners are looked at in the order 1, 2 ... n - 1, 0, each
+ * one is cut off where the triangle with its neighbours holds nothing else of the outline, and then those next to a cut, in the
+ * order of the cuts. Each triangle has its corners in the order of the face, beginning with the lowest position. The triangles
+ * cover the inside once and nothing else, also with holes that are joined to the outline by lines there and back, and where the
+ * outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
+ * area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
+ * corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
+ * Vertices and faces are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any,
+ * else all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has more.
+ * path: UTF-8, or whatever bytes the system names the file by; not NULL; the ending tells the format.
  * mesh: receives a mesh the caller must release; not NULL.
  * Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,
  * RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY,
@@ -274,7 +306,8 @@ RW_API int32_t rw_mesh_retain(const rw_mesh *mesh);
 RW_API int32_t rw_mesh_release(const rw_mesh *mesh);
 
 /* Does: describes the arrays of a mesh, ready for rw_scene_add_triangles.
- * mesh: not NULL. triangles: struct_size set; receives pointers into the mesh.
+ * mesh: not NULL. triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
+ * depends on the file (see rw_mesh_load); indices.type is RW_UINT32.
  * Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED) needs
  * the mesh to be kept. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_mesh_triangles(const rw_mesh *mesh, rw_triangles *triangles);
@@ -325,7 +358,7 @@ typedef struct rw_hit {
     uint32_t instance;  /* RW_INVALID_ID while the scene has no instances */
     uint32_t geometry;  /* as given by rw_scene_add_triangles */
     uint32_t primitive; /* position of the triangle in its mesh */
-    uint32_t reserved;  /* 0 */
+    uint32_t reserved;  /* receives 0 */
 } rw_hit;
 
 /* Many rays. */
@@ -391,7 +424,8 @@ RW_API int32_t rw_structure_name(uint32_t index, const char **name);
 typedef struct rw_scene rw_scene;
 
 /* Does: makes an empty scene.
- * profile: the constants to decide with; retained by the scene. NULL: as rw_profile_load(NULL) finds it.
+ * profile: the constants to decide with; retained by the scene. NULL: the one that rw_profile_load(NULL) gives, looked up once
+ * in a process.
  * scene: receives a scene the caller must release; not NULL.
  * Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_create(const rw_profile *profile, rw_scene **scene);
@@ -406,7 +440,7 @@ RW_API int32_t rw_scene_release(const rw_scene *scene);
  * triangles: struct_size set; not NULL. Copied unless RW_TRIANGLES_SHARED.
  * geometry: receives the mesh's id: 0, 1, 2 ... in the order of adding; may be NULL.
  * Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE,
- * RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY.
+ * RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED, RW_ERROR_OUT_OF_MEMORY.
  * On an error the scene is as it was. Threads: alone with the scene. Since: 0.1. */
 RW_API int32_t rw_scene_add_triangles(rw_scene *scene, const rw_triangles *triangles, uint32_t *geometry);
 
@@ -434,7 +468,7 @@ typedef struct rw_expected_rays {
 /* Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
  * expected: struct_size set; not NULL.
  * Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
- * RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1. */
+ * RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED (the sample), RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1. */
 RW_API int32_t rw_scene_set_expected_rays(rw_scene *scene, const rw_expected_rays *expected);
 
 /* Does: bounds the memory that the structure may take, the caller's own arrays not counted.
@@ -499,7 +533,7 @@ RW_API int32_t rw_scene_commit(rw_scene *scene, const rw_commit_options *options
  * refitted: receives a scene the caller must release; not NULL.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY,
  * RW_ERROR_HOST_PARALLEL, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY,
- * RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2. */
+ * RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2. */
 RW_API int32_t rw_scene_refit(const rw_scene *scene, const rw_triangles *meshes, uint32_t mesh_count,
                               const rw_commit_options *options, rw_scene **refitted);
 
@@ -509,7 +543,7 @@ RW_API int32_t rw_scene_refit(const rw_scene *scene, const rw_triangles *meshes,
 
 /* Does: tells the box around all triangles that can be hit.
  * lower, upper: 3 values each; not NULL. An empty scene has lower = INFINITY and upper = -INFINITY.
- * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
+ * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_bounds(const rw_scene *scene, double *lower, double *upper);
 
 typedef struct rw_scene_statistics {
@@ -534,20 +568,21 @@ typedef struct rw_scene_statistics {
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_get_statistics(const rw_scene *scene, rw_scene_statistics *statistics);
 
-/* Statistics over the cells of a uniform grid: Hapala, Karlik, Havran 2011, eq. 1 to 6. */
+/* Statistics over the t cells of a uniform grid, of which cell i has n_i references: Hapala, Karlik, Havran 2011, eq. 1 to 6. */
 typedef struct rw_grid_statistics {
     uint32_t struct_size;
     uint32_t resolution[3];
     uint64_t cells;
     uint64_t empty_cells;
     uint64_t references;
-    uint64_t max_references; /* eq. 2 */
-    double sparseness;       /* eq. 1: empty cells / cells */
-    double mean;             /* eq. 3: references per cell */
-    double variance;         /* eq. 4 */
-    double standard_deviation;
-    double skewness; /* eq. 5; 0 when the variance is 0 */
-    double kurtosis; /* eq. 6; 0 when the variance is 0 */
+    uint64_t max_references;   /* eq. 2 */
+    double sparseness;         /* eq. 1: empty cells / cells */
+    double mean;               /* eq. 3: references per cell */
+    double variance;           /* eq. 4: sum of (n_i - mean)^2 / (t - 1); 0 for a single cell */
+    double standard_deviation; /* square root of the variance */
+    double skewness;           /* eq. 5: sum of (n_i - mean)^3 / t / standard_deviation^3; 0 when the variance is 0 */
+    double kurtosis; /* eq. 6: sum of (n_i - mean)^4 / t / variance^2, minus 3, so that it is about 0 for a normal
+                        distribution (excess kurtosis); 0 when the variance is 0 */
 } rw_grid_statistics;
 
 /* Does: tells the statistics of the grid in use.
@@ -597,14 +632,14 @@ RW_API int32_t rw_scene_intersect_all_with(const rw_scene *scene, const rw_ray *
                                            rw_hit *hits, uint64_t capacity, uint64_t *needed);
 
 /* Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_with for each.
- * rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
- * the rays, which is not checked.
+ * rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may share memory
+ * neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is not checked.
  * options: struct_size set; NULL: the defaults.
  * Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
  * 80 MiB in all, while the call lasts.
- * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
- * RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_OUT_OF_MEMORY,
- * RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
+ * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then partly written),
+ * RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP,
+ * RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits,
                                         const rw_query_options *options);
 
@@ -618,7 +653,7 @@ RW_API int32_t rw_scene_occluded_batch(const rw_scene *scene, const rw_rays *ray
  * sorted as in rw_scene_intersect_all.
  * offsets: room for rays->count + 1 numbers; always written in full; not NULL.
  * hits: outputs with room for capacity answers; NULL with capacity 0 to ask for the offsets only.
- * needed: receives the number of all hits, offsets[rays->count]; may be NULL.
+ * needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may share no memory.
  * Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
  * otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_intersect_all_batch(const rw_scene *scene, const rw_rays *rays, uint64_t *offsets,
@@ -660,7 +695,8 @@ RW_API int32_t rw_scene_candidate_count(const rw_scene *scene, uint32_t *count);
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_get_candidate(const rw_scene *scene, uint32_t index, rw_candidate *candidate);
 
-/* Does: explains the choice: scene, profile, each candidate with predicted and actual build time, ns per ray and bytes.
+/* Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build time, ns per
+ * ray and bytes.
  * Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1. */
 RW_API int32_t rw_scene_explain(const rw_scene *scene, int32_t format, char *buffer, uint64_t capacity,
                                 uint64_t *needed);
@@ -695,7 +731,7 @@ typedef struct rw_view_options {
  * commit: threads, progress and parallel-for of the build; NULL: the defaults.
  * view: receives a view the caller must release; not NULL.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_RAY_COUNT, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_NOT_FINITE (origin or
- * direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL,
+ * direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL, RW_ERROR_RESERVED,
  * RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1. */
 RW_API int32_t rw_view_create(const rw_scene *scene, const rw_view_options *options, const rw_commit_options *commit,
                               rw_view **view);
@@ -757,7 +793,7 @@ RW_API int32_t rw_view_explain(const rw_view *view, int32_t format, char *buffer
 typedef struct rw_once_options {
     uint32_t struct_size;
     int32_t kind;                  /* RW_RAYS_ kind of the rays */
-    const rw_profile *profile;     /* NULL: as rw_profile_load(NULL) finds it */
+    const rw_profile *profile;     /* NULL: the one that rw_profile_load(NULL) gives, looked up once in a process */
     const char *structure;         /* forces a structure by name; NULL: the library chooses */
     uint64_t memory_limit;         /* bytes of the structure; 0: no limit */
     const rw_query_options *query; /* NULL: the defaults */

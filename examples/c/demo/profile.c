@@ -1,6 +1,7 @@
 #include "profile.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,53 +35,58 @@ static bool load(const struct api *api, const char *path, rw_profile **profile, 
     if (status != RW_OK) {
         const char *text = api->status_text(status);
         const char *message = api->last_error_message();
-        printf("note: a calibration profile was not used: %s\n", message[0] != '\0' ? message : text);
+        printf("note: a calibration profile was passed over: %s\n", message[0] != '\0' ? message : text);
     }
     memset(info, 0, sizeof *info);
     info->struct_size = sizeof *info;
     return api_ok(api, api->profile_inspect(*profile, info), "rw_profile_inspect");
 }
 
-/* Runs raywise-calibrate, which shows its own progress. True when it has written a profile. */
-static bool calibrate(const char *program) {
-    char measure[] = "measure";
-    char quick[] = "--quick";
+/* Runs raywise-calibrate; without a word when quiet. True when it could be run and *state tells how it ended. */
+static bool run(const char *program, const char *command, const char *option, bool quiet, int *state) {
     char name[] = "raywise-calibrate";
-    char *const arguments[] = {name, measure, quick, NULL};
-    printf("This machine has no calibration profile; running %s measure --quick\n", program);
+    char *const arguments[] = {name, (char *)command, (char *)option, NULL};
+    posix_spawn_file_actions_t actions;
+    if (posix_spawn_file_actions_init(&actions) != 0) return false;
+    if (quiet) {
+        posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    }
     fflush(stdout); /* or the child's lines come before ours in a log */
     pid_t child = 0;
-    const int error = posix_spawnp(&child, program, NULL, NULL, arguments, environ);
+    const int error = posix_spawnp(&child, program, &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
         printf("note: cannot run %s: %s\n", program, strerror(error));
         return false;
     }
-    int state = 0;
-    while (waitpid(child, &state, 0) == -1)
+    while (waitpid(child, state, 0) == -1)
         if (errno != EINTR) return false;
-    if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return true;
-    if (WIFEXITED(state))
+    return true;
+}
+
+/* Sees to it that there is a profile of this machine, before the library looks for one: it does so once in a process. */
+static void calibrate_if_needed(const char *program) {
+    int state = 0;
+    if (!run(program, "check", NULL, true, &state) || !WIFEXITED(state) || WEXITSTATUS(state) != 1) return;
+    printf("This machine has no calibration profile; running %s measure --quick\n", program);
+    if (!run(program, "measure", "--quick", false, &state)) return;
+    if (WIFEXITED(state) && WEXITSTATUS(state) != 0)
         printf(
             "note: raywise-calibrate wrote no profile (exit code %d; it refuses when the machine is too\n"
             "      busy to be measured). Going on without one.\n",
             WEXITSTATUS(state));
-    else
+    else if (!WIFEXITED(state))
         printf("note: raywise-calibrate was ended by signal %d. Going on without a profile.\n",
                WIFSIGNALED(state) ? WTERMSIG(state) : 0);
-    return false;
 }
 
 bool profile_get(const struct api *api, const struct args *args, rw_profile **profile) {
     rw_profile_info info;
-    bool good = load(api, args->profile, profile, &info);
     /* Whoever names a profile, or "builtin", has decided already. */
     const bool named = args->profile != NULL || getenv("RAYWISE_CALIBRATION") != NULL;
-    if (good && info.source == RW_PROFILE_SOURCE_GENERIC && !named && args->calibrate != NULL &&
-        calibrate(args->calibrate)) {
-        api->profile_release(*profile);
-        good = load(api, NULL, profile, &info);
-    }
-    if (!good) {
+    if (!named && args->calibrate != NULL) calibrate_if_needed(args->calibrate);
+    if (!load(api, args->profile, profile, &info)) {
         api->profile_release(*profile);
         *profile = NULL;
         return false;

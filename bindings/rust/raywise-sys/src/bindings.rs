@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from raywise.h. Change the header and run that script; do not edit.
 
 pub const RW_VERSION_MAJOR: i32 = 0;
-pub const RW_VERSION_MINOR: i32 = 1;
+pub const RW_VERSION_MINOR: i32 = 2;
 pub const RW_VERSION_PATCH: i32 = 0;
 pub const RW_ABI_VERSION: i32 = 1;
 pub const RW_OK: i32 = 0;
@@ -33,7 +33,10 @@ pub const RW_PROFILE_SCHEMA: i32 = 25;
 pub const RW_PROFILE_EPOCH: i32 = 26;
 pub const RW_PROFILE_MACHINE: i32 = 27;
 pub const RW_PROFILE_RANGE: i32 = 28;
-pub const RW_STATUS_COUNT: i32 = 29;
+pub const RW_ERROR_RESERVED: i32 = 29;
+pub const RW_ERROR_OVERLAP: i32 = 30;
+pub const RW_ERROR_SHARED_MEMORY: i32 = 31;
+pub const RW_STATUS_COUNT: i32 = 32;
 pub const RW_TYPE_DEFAULT: i32 = 0;
 pub const RW_FLOAT32: i32 = 1;
 pub const RW_FLOAT64: i32 = 2;
@@ -132,7 +135,12 @@ impl Default for rw_array {
         }
     }
 }
-/// Output, laid out as rw_array. data NULL: not wanted. RW_REPEAT is an error here, as are elements that overlap.
+/**
+```text
+Output, laid out as rw_array. data NULL: not wanted. RW_REPEAT is an error here, as are elements that overlap
+(RW_ERROR_OVERLAP) and outputs that share a byte (RW_ERROR_SHARED_MEMORY).
+```
+*/
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct rw_output {
@@ -140,6 +148,7 @@ pub struct rw_output {
     pub stride: i64,
     pub component_stride: i64,
     pub type_: i32,
+    /// 0
     pub reserved: i32,
 }
 #[test]
@@ -219,7 +228,7 @@ pub struct rw_profile_info {
     pub struct_size: u32,
     /// RW_PROFILE_SOURCE_
     pub source: i32,
-    /// RW_OK, or why the file asked for was passed over
+    /// RW_OK, or why a file was passed over that comes before `source`: the first of them
     pub status: i32,
     /// calibration epoch of the constants
     pub epoch: u32,
@@ -235,6 +244,7 @@ pub struct rw_profile_info {
     pub spread: f64,
     /// threads the machine offered when it was measured
     pub threads: u32,
+    /// receives 0
     pub reserved: u32,
 }
 #[test]
@@ -550,7 +560,7 @@ pub struct rw_hit {
     pub geometry: u32,
     /// position of the triangle in its mesh
     pub primitive: u32,
-    /// 0
+    /// receives 0
     pub reserved: u32,
 }
 #[test]
@@ -1115,7 +1125,7 @@ impl Default for rw_scene_statistics {
         }
     }
 }
-/// Statistics over the cells of a uniform grid: Hapala, Karlik, Havran 2011, eq. 1 to 6.
+/// Statistics over the t cells of a uniform grid, of which cell i has n_i references: Hapala, Karlik, Havran 2011, eq. 1 to 6.
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct rw_grid_statistics {
@@ -1130,12 +1140,18 @@ pub struct rw_grid_statistics {
     pub sparseness: f64,
     /// eq. 3: references per cell
     pub mean: f64,
-    /// eq. 4
+    /// eq. 4: sum of (n_i - mean)^2 / (t - 1); 0 for a single cell
     pub variance: f64,
+    /// square root of the variance
     pub standard_deviation: f64,
-    /// eq. 5; 0 when the variance is 0
+    /// eq. 5: sum of (n_i - mean)^3 / t / standard_deviation^3; 0 when the variance is 0
     pub skewness: f64,
-    /// eq. 6; 0 when the variance is 0
+    /**
+```text
+eq. 6: sum of (n_i - mean)^4 / t / variance^2, minus 3, so that it is about 0 for a normal
+distribution (excess kurtosis); 0 when the variance is 0
+```
+*/
     pub kurtosis: f64,
 }
 #[test]
@@ -1448,7 +1464,7 @@ pub struct rw_once_options {
     pub struct_size: u32,
     /// RW_RAYS_ kind of the rays
     pub kind: i32,
-    /// NULL: as rw_profile_load(NULL) finds it
+    /// NULL: the one that rw_profile_load(NULL) gives, looked up once in a process
     pub profile: *const rw_profile,
     /// forces a structure by name; NULL: the library chooses
     pub structure: *const ::std::os::raw::c_char,
@@ -1549,15 +1565,18 @@ Owner: the library; valid until the thread's next raywise call that does not ret
     pub fn rw_last_error_message() -> *const ::std::os::raw::c_char;
     /**
 ```text
-Does: reads a profile. With a path: that file. With NULL: the first valid one of the file named by the
-environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the user's cache folder
+Does: hands out a profile. With a path: reads that file, anew with each call. With NULL: the first valid one of the file
+named by the environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the user's cache folder
 ($XDG_CACHE_HOME or ~/.cache, then raywise/<machine key>.json) and the system's folder
-(/etc/raywise/<machine key>.json).
+(/etc/raywise/<machine key>.json). The machine key names the processor, the instruction set that the library uses on it, the
+last cache's size and the number of usable threads; `raywise-calibrate --help` prints these paths.
+These places are looked at once in a process, by the first call that needs a profile and is given none; it is kept, and
+what files and environment say later goes unseen. A profile written since can be loaded by its path.
 path: UTF-8, or NULL.
 profile: receives a profile the caller must release; not NULL.
 Returns: RW_OK when the file was used, or when path is NULL and there was no file at all. An RW_PROFILE_ status
-when a file could not be used: *profile is then set all the same, to the next valid file's or the
-generic constants. RW_ERROR_INVALID_ARGUMENT and RW_ERROR_OUT_OF_MEMORY set nothing.
+when a file was passed over (that of the first): *profile is then set all the same, with a path to the generic constants,
+with NULL to the next valid file's or the generic constants. RW_ERROR_INVALID_ARGUMENT and RW_ERROR_OUT_OF_MEMORY set nothing.
 Threads: any. Since: 0.1.
 ```
 */
@@ -1599,8 +1618,18 @@ RW_ERROR_INVALID_ARGUMENT. Asking for the size only is RW_OK. Threads: any. Sinc
     ) -> i32;
     /**
 ```text
-Does: reads an OBJ, PLY, OFF or STL file. Polygons are cut into triangle fans in the order of their corners.
-path: UTF-8, not NULL; the ending tells the format.
+Does: reads an OBJ, PLY, OFF or STL file. A face of n corners becomes n - 2 triangles of its corners, faces in the order of the
+file. A convex face becomes the fan about its first corner: (0, 1, 2), (0, 2, 3) and so on. Any other is cut ear by ear, as seen
+in the coordinate plane where its area is largest, on exact signs: the corners are looked at in the order 1, 2 ... n - 1, 0, each
+one is cut off where the triangle with its neighbours holds nothing else of the outline, and then those next to a cut, in the
+order of the cuts. Each triangle has its corners in the order of the face, beginning with the lowest position. The triangles
+cover the inside once and nothing else, also with holes that are joined to the outline by lines there and back, and where the
+outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
+area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
+corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
+Vertices and faces are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any,
+else all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has more.
+path: UTF-8, or whatever bytes the system names the file by; not NULL; the ending tells the format.
 mesh: receives a mesh the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,
 RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY,
@@ -1618,7 +1647,8 @@ RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1.
     /**
 ```text
 Does: describes the arrays of a mesh, ready for rw_scene_add_triangles.
-mesh: not NULL. triangles: struct_size set; receives pointers into the mesh.
+mesh: not NULL. triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
+depends on the file (see rw_mesh_load); indices.type is RW_UINT32.
 Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED) needs
 the mesh to be kept. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
@@ -1659,7 +1689,8 @@ Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
     /**
 ```text
 Does: makes an empty scene.
-profile: the constants to decide with; retained by the scene. NULL: as rw_profile_load(NULL) finds it.
+profile: the constants to decide with; retained by the scene. NULL: the one that rw_profile_load(NULL) gives, looked up once
+in a process.
 scene: receives a scene the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1.
 ```
@@ -1675,7 +1706,7 @@ Does: adds a mesh. Every vertex and index is checked here.
 triangles: struct_size set; not NULL. Copied unless RW_TRIANGLES_SHARED.
 geometry: receives the mesh's id: 0, 1, 2 ... in the order of adding; may be NULL.
 Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE,
-RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY.
+RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED, RW_ERROR_OUT_OF_MEMORY.
 On an error the scene is as it was. Threads: alone with the scene. Since: 0.1.
 ```
 */
@@ -1689,7 +1720,7 @@ On an error the scene is as it was. Threads: alone with the scene. Since: 0.1.
 Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
 expected: struct_size set; not NULL.
 Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
-RW_ERROR_ALREADY_COMMITTED, RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1.
+RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED (the sample), RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1.
 ```
 */
     pub fn rw_scene_set_expected_rays(
@@ -1761,7 +1792,7 @@ mesh_count: as many as the scene has. options: struct_size set; NULL: the defaul
 refitted: receives a scene the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY,
 RW_ERROR_HOST_PARALLEL, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY,
-RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2.
+RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2.
 ```
 */
     pub fn rw_scene_refit(
@@ -1775,7 +1806,7 @@ RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0
 ```text
 Does: tells the box around all triangles that can be hit.
 lower, upper: 3 values each; not NULL. An empty scene has lower = INFINITY and upper = -INFINITY.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
 */
     pub fn rw_scene_bounds(
@@ -1890,14 +1921,14 @@ RW_ERROR_CAPACITY. Threads: any. Since: 0.2.
     /**
 ```text
 Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_with for each.
-rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may not overlap
-the rays, which is not checked.
+rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may share memory
+neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is not checked.
 options: struct_size set; NULL: the defaults.
 Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
 80 MiB in all, while the call lasts.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL (the outputs are then partly written),
-RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_OUT_OF_MEMORY,
-RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then partly written),
+RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP,
+RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
 */
     pub fn rw_scene_intersect_batch(
@@ -1925,7 +1956,7 @@ Does: finds every hit of many rays. The hits of ray i are the elements offsets[i
 sorted as in rw_scene_intersect_all.
 offsets: room for rays->count + 1 numbers; always written in full; not NULL.
 hits: outputs with room for capacity answers; NULL with capacity 0 to ask for the offsets only.
-needed: receives the number of all hits, offsets[rays->count]; may be NULL.
+needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may share no memory.
 Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
 otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1.
 ```
@@ -1960,7 +1991,8 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any.
     ) -> i32;
     /**
 ```text
-Does: explains the choice: scene, profile, each candidate with predicted and actual build time, ns per ray and bytes.
+Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build time, ns per
+ray and bytes.
 Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1.
 ```
 */
@@ -1978,7 +2010,7 @@ scene: committed; retained by the view. options: struct_size set; not NULL.
 commit: threads, progress and parallel-for of the build; NULL: the defaults.
 view: receives a view the caller must release; not NULL.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_RAY_COUNT, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_NOT_FINITE (origin or
-direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL,
+direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL, RW_ERROR_RESERVED,
 RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```
 */

@@ -27,7 +27,9 @@ unsafe impl Send for Mesh {}
 unsafe impl Sync for Mesh {}
 
 impl Mesh {
-    /// Reads a file; its ending tells the format. Polygons are cut into triangle fans in the order of their corners.
+    /// Reads a file; its ending tells the format. A face of n corners becomes n - 2 triangles that cover its inside, also where
+    /// it is concave; a convex one the fan about its first corner.
+    /// Coordinates are as written: `f64` where `f32` would change any of them, else `f32` ([`Mesh::is_float64`]).
     /// Wraps `rw_mesh_load`, `rw_mesh_triangles` and `rw_mesh_faces`.
     ///
     /// # Errors
@@ -62,6 +64,12 @@ impl Mesh {
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.raw.0.triangle_count as usize
+    }
+
+    /// Whether the mesh holds its vertices as `f64`, because `f32` would change a coordinate of the file.
+    #[must_use]
+    pub fn is_float64(&self) -> bool {
+        self.raw.0.vertices.type_ == sys::RW_FLOAT64
     }
 
     /// A copy of the vertices.

@@ -21,7 +21,7 @@ pub struct Profile {
 pub struct LoadedProfile {
     /// What the library will work with.
     pub profile: Profile,
-    /// Set when a file could not be used, and `profile` is the next valid one or the generic constants.
+    /// Set when a file was passed over. What is used instead, `profile` tells: see [`Profile::info`].
     pub warning: Option<ProfileWarning>,
 }
 
@@ -72,7 +72,7 @@ impl ProfileSource {
 pub struct ProfileInfo {
     /// Where it came from.
     pub source: ProfileSource,
-    /// Why the file asked for was passed over, if it was.
+    /// Why a file that comes before `source` was passed over, if one was.
     pub passed_over: Option<Status>,
     /// Calibration epoch of the constants.
     pub epoch: u32,
@@ -91,7 +91,7 @@ pub struct ProfileInfo {
 }
 
 impl Profile {
-    /// Reads the profile in a file. One that cannot be used is not an error: the profile is then the next valid one or
+    /// Reads the profile in a file, anew with each call. One that cannot be used is not an error: the profile is then that of
     /// the generic constants, and the warning says why. Wraps `rw_profile_load` with a path.
     ///
     /// # Errors
@@ -101,8 +101,9 @@ impl Profile {
         Self::load_from(Some(&path))
     }
 
-    /// Reads the first valid profile of: the file named by the environment variable `RAYWISE_CALIBRATION`, the user's
-    /// cache folder, the system's folder; the generic constants if there is none. Wraps `rw_profile_load` with NULL.
+    /// The first valid profile of: the file named by the environment variable `RAYWISE_CALIBRATION`, the user's
+    /// cache folder, the system's folder; the generic constants if there is none. Looked up once in a process and kept:
+    /// scenes without a profile of their own have the same one. Wraps `rw_profile_load` with NULL.
     ///
     /// # Errors
     /// [`Status::OUT_OF_MEMORY`].

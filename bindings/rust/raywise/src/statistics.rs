@@ -83,7 +83,7 @@ pub struct GridStatistics {
     pub standard_deviation: f64,
     /// Equation 5; 0 when the variance is 0.
     pub skewness: f64,
-    /// Equation 6; 0 when the variance is 0.
+    /// Equation 6: excess kurtosis, minus 3; 0 when the variance is 0.
     pub kurtosis: f64,
 }
 

@@ -44,9 +44,9 @@ macro_rules! statuses {
 statuses! {
     /// All went well.
     OK = RW_OK;
-    /// NULL, an unknown constant, or a struct that cannot be.
+    /// NULL, an unknown constant, a struct that cannot be, or a number out of its range.
     INVALID_ARGUMENT = RW_ERROR_INVALID_ARGUMENT;
-    /// An allocation failed; nothing was changed.
+    /// An allocation failed; nothing was changed but a batch's outputs.
     OUT_OF_MEMORY = RW_ERROR_OUT_OF_MEMORY;
     /// A vertex, origin or direction has a NaN or infinite coordinate.
     NOT_FINITE = RW_ERROR_NOT_FINITE;
@@ -54,7 +54,7 @@ statuses! {
     COORDINATE_RANGE = RW_ERROR_COORDINATE_RANGE;
     /// An index or id names a vertex, geometry or triangle that is not there.
     INDEX_OUT_OF_RANGE = RW_ERROR_INDEX_OUT_OF_RANGE;
-    /// More vertices, triangles or rays than the ids can count.
+    /// More vertices or triangles than the ids can count, or more rays than `RW_RAYS_LIMIT`.
     TOO_MANY = RW_ERROR_TOO_MANY;
     /// A committed scene cannot be changed.
     ALREADY_COMMITTED = RW_ERROR_ALREADY_COMMITTED;
@@ -64,7 +64,7 @@ statuses! {
     UNKNOWN_STRUCTURE = RW_ERROR_UNKNOWN_STRUCTURE;
     /// The question has no meaning for the structure in use.
     WRONG_STRUCTURE = RW_ERROR_WRONG_STRUCTURE;
-    /// An expected ray count of zero, or an absurd one.
+    /// An expected ray count of zero, or above `RW_RAYS_LIMIT`.
     RAY_COUNT = RW_ERROR_RAY_COUNT;
     /// The output is too small.
     CAPACITY = RW_ERROR_CAPACITY;
@@ -96,10 +96,16 @@ statuses! {
     PROFILE_SCHEMA = RW_PROFILE_SCHEMA;
     /// Profile: measured on kernels that have changed since.
     PROFILE_EPOCH = RW_PROFILE_EPOCH;
-    /// Profile: measured on another machine.
+    /// Profile: measured on another machine, or with another instruction set on this one.
     PROFILE_MACHINE = RW_PROFILE_MACHINE;
     /// Profile: a constant is negative, not finite or beyond belief.
     PROFILE_RANGE = RW_PROFILE_RANGE;
+    /// A reserved member is not zero.
+    RESERVED = RW_ERROR_RESERVED;
+    /// The strides of an output let its elements overlap.
+    OVERLAP = RW_ERROR_OVERLAP;
+    /// Two outputs, or an output and the rays, share memory.
+    SHARED_MEMORY = RW_ERROR_SHARED_MEMORY;
 }
 
 impl Status {

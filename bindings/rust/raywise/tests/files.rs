@@ -20,7 +20,7 @@ const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\npr
                    0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 1\n4 0 1 2 3\n3 0 1 4\n3 2 3 4\n";
 
 #[test]
-fn polygons_are_cut_into_fans_and_remember_their_face() -> Result {
+fn convex_polygons_are_cut_into_fans_and_remember_their_face() -> Result {
     for path in [file("roof.obj", OBJ), file("roof.off", OFF), file("roof.ply", PLY)] {
         let mesh = Mesh::load(&path)?;
         let name = path.display();
@@ -30,7 +30,27 @@ fn polygons_are_cut_into_fans_and_remember_their_face() -> Result {
         assert_eq!((mesh.triangle_count(), mesh.face_count()), (4, 3), "{name}");
         assert_eq!(mesh.face_of_triangle(), [0, 0, 1, 2], "{name}");
         assert_eq!(mesh.clone().triangles().len(), 4, "{name}");
+        assert!(!mesh.is_float64(), "{name}");
     }
+    Ok(())
+}
+
+#[test]
+fn concave_polygons_have_no_surface_outside() -> Result {
+    let path = file("dart.off", "OFF\n4 1 0\n0 0 0\n4 -2 0\n0 4 0\n1 0 0\n4 0 1 2 3\n");
+    assert_eq!(Mesh::load(path)?.indices(), [[1, 2, 3], [0, 1, 3]]);
+    Ok(())
+}
+
+#[test]
+fn coordinates_are_as_written() -> Result {
+    let path = file(
+        "utm.obj",
+        "v 500000.1 5183526.3 100.25\nv 500000.2 5183526.3 100.25\nv 500000.2 5183526.4 100.25\nf 1 2 3\n",
+    );
+    let mesh = Mesh::load(path)?;
+    assert!(mesh.is_float64());
+    assert_eq!(mesh.vertices()[2], [500000.2, 5183526.4, 100.25]);
     Ok(())
 }
 

@@ -50,6 +50,27 @@ fn a_file_that_is_not_a_profile_is_a_warning() -> Result {
     Ok(())
 }
 
+/// The words for a file that was passed over are true whatever is used instead.
+#[test]
+fn no_status_says_what_is_used_instead() {
+    for code in 0..raywise_sys::RW_STATUS_COUNT {
+        let status = Status::from_code(code);
+        let about_profiles = status.name().is_some_and(|name| name.starts_with("RW_PROFILE_"));
+        assert_eq!(status.text().starts_with("a calibration profile was passed over: "), about_profiles, "{status}");
+        assert!(!status.text().contains("generic"), "{status}");
+    }
+}
+
+/// What was found is kept for the process.
+#[test]
+fn the_same_profile_is_found_again() -> Result {
+    let first = Profile::find()?;
+    let again = Profile::find()?;
+    assert_eq!(first.profile.info()?, again.profile.info()?);
+    assert_eq!(first.warning, again.warning);
+    Ok(())
+}
+
 /// A generic profile is what the library prints of itself, so a copy of it is taken or refused for a stated reason, and
 /// whichever it is, answers come from the profile that is then in force.
 #[test]
