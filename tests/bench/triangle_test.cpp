@@ -68,8 +68,11 @@ std::vector<workloads::SurfacePoint> closest(const BuiltScene& scene, const work
     std::vector<workloads::SurfacePoint> points;
     for (const rw_ray& ray : packed(rays)) {
         rw_hit hit;
-        scene.library().check(scene.library().rw_scene_intersect(scene.handle(), &ray, &hit));
-        points.push_back({hit.t, Vec3(hit.normal[0], hit.normal[1], hit.normal[2])});
+        scene.library().check(scene.library().rw_scene_intersect(scene.handle(), &ray, nullptr, &hit));
+        double normal[3] = {0.0, 0.0, 0.0};
+        if (hit.primitive != RW_INVALID_ID)
+            scene.library().check(scene.library().rw_scene_normal(scene.handle(), &hit, normal));
+        points.push_back({hit.t, Vec3(normal[0], normal[1], normal[2])});
     }
     return points;
 }
@@ -81,13 +84,13 @@ std::uint64_t ask(const BuiltScene& scene, const std::vector<rw_ray>& rays, bool
     if (any_hit) {
         for (const rw_ray& ray : rays) {
             std::int32_t occluded = 0;
-            library.rw_scene_occluded(scene.handle(), &ray, &occluded);
+            library.rw_scene_occluded(scene.handle(), &ray, nullptr, &occluded);
             hits += occluded != 0 ? 1 : 0;
         }
     } else {
         for (const rw_ray& ray : rays) {
             rw_hit hit;
-            library.rw_scene_intersect(scene.handle(), &ray, &hit);
+            library.rw_scene_intersect(scene.handle(), &ray, nullptr, &hit);
             hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
         }
     }

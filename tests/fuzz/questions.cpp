@@ -20,12 +20,10 @@ bool same_bits(const rw_hit& a, const rw_hit& b) { return std::memcmp(&a, &b, si
                            const rw_hit& found) {
     describe(ray);
     fail(
-        "%s, %s: the judge says t %a u %a v %a normal {%a, %a, %a} geometry %u primitive %u, it says t %a u %a v %a "
-        "normal "
-        "{%a, %a, %a} geometry %u primitive %u",
-        asked.name().c_str(), question, wanted.t, wanted.u, wanted.v, wanted.normal[0], wanted.normal[1],
-        wanted.normal[2], wanted.geometry, wanted.primitive, found.t, found.u, found.v, found.normal[0],
-        found.normal[1], found.normal[2], found.geometry, found.primitive);
+        "%s, %s: the judge says t %a u %a v %a geometry %u primitive %u, it says t %a u %a v %a geometry %u primitive "
+        "%u",
+        asked.name().c_str(), question, wanted.t, wanted.u, wanted.v, wanted.geometry, wanted.primitive, found.t,
+        found.u, found.v, found.geometry, found.primitive);
 }
 
 void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const Skips& skips,
@@ -410,9 +408,9 @@ void ask_too_early(Input& input, const rw_scene* scene) {
     const auto refuse = [](const char* call, std::int32_t status) {
         Outcome(call).fails_if(true, RW_ERROR_NOT_COMMITTED).check(status);
     };
-    refuse("intersect", rw_scene_intersect(scene, &ray, &hit));
-    refuse("occluded", rw_scene_occluded(scene, &ray, &occluded));
-    refuse("intersect_all", rw_scene_intersect_all(scene, &ray, &hit, 1, &needed));
+    refuse("intersect", rw_scene_intersect(scene, &ray, nullptr, &hit));
+    refuse("occluded", rw_scene_occluded(scene, &ray, nullptr, &occluded));
+    refuse("intersect_all", rw_scene_intersect_all(scene, &ray, nullptr, &hit, 1, &needed));
     demand(same_bits(hit, untouched) && occluded == 77 && needed == 77,
            "a scene that is not committed wrote an answer");
     double bounds[6] = {7, 7, 7, 7, 7, 7};

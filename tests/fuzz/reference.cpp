@@ -79,10 +79,10 @@ rw_ray_options options_of(const Skips& skips) {
 std::vector<rw_hit> Reference::all(const rw_ray& ray, const Skips& skips) const {
     const rw_ray_options options = options_of(skips);
     std::uint64_t needed = 0;
-    demand(rw_scene_intersect_all_with(judge(), &ray, &options, nullptr, 0, &needed) == RW_OK,
+    demand(rw_scene_intersect_all(judge(), &ray, &options, nullptr, 0, &needed) == RW_OK,
            "the judge could not count hits");
     std::vector<rw_hit> hits(needed);
-    demand(rw_scene_intersect_all_with(judge(), &ray, &options, hits.data(), needed, &needed) == RW_OK,
+    demand(rw_scene_intersect_all(judge(), &ray, &options, hits.data(), needed, &needed) == RW_OK,
            "the judge could not list hits");
     demand(needed == hits.size(), "the judge counts hits twice in two ways");
     check(ray, skips, hits);

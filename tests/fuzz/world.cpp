@@ -109,7 +109,7 @@ void World::release_scene(std::size_t index) {
 }
 
 void World::release_view(std::size_t index) {
-    for (int i = 0; i < views_[index].held.references; ++i) rw_view_release(views_[index].held.handle);
+    for (int i = 0; i < views_[index].held.references; ++i) rw_scene_release(views_[index].held.handle);
     views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
@@ -376,8 +376,8 @@ void World::make_view() {
     view.reference = scene->reference;
     view.forced = choice.name;
     view.held.references = 1;
-    const std::int32_t status = rw_view_create(scene->held.handle, options.get(), build.get(), &view.held.handle);
-    Outcome outcome("view_create");
+    const std::int32_t status = rw_scene_view(scene->held.handle, options.get(), build.get(), &view.held.handle);
+    Outcome outcome("scene_view");
     const bool wrong_angle = o.kind == RW_VIEW_POINT && !(o.half_angle >= 0.0 && o.half_angle < 1.5707963267948966);
     outcome.fails_if(!scene->is_committed(), RW_ERROR_NOT_COMMITTED)
         .fails_if(options.is_wrong(), RW_ERROR_INVALID_ARGUMENT)
@@ -415,7 +415,7 @@ void World::keep_and_give_back() {
         case 1:
             if (!views_.empty()) {
                 ViewState& view = views_[input_.below(views_.size())];
-                Outcome("view_retain").check(rw_view_retain(view.held.handle));
+                Outcome("view_retain").check(rw_scene_retain(view.held.handle));
                 ++view.held.references;
             }
             break;
@@ -436,7 +436,6 @@ void World::keep_and_give_back() {
             break;
         default:
             Outcome("release nothing").check(rw_scene_release(nullptr));
-            Outcome("release nothing").check(rw_view_release(nullptr));
             Outcome("release nothing").check(rw_profile_release(nullptr));
             Outcome("release nothing").check(rw_mesh_release(nullptr));
             break;

@@ -30,7 +30,7 @@ struct SceneState {
 };
 
 struct ViewState {
-    Held<rw_view> held;
+    Held<rw_scene> held;
     std::shared_ptr<const Reference> reference;
     std::string forced;
 };
