@@ -35,6 +35,16 @@ static bool read_candidates(const struct api *api, const rw_scene *scene, struct
     return true;
 }
 
+/* The same, and how long choosing took. */
+static bool read_decision(const struct api *api, const rw_scene *scene, struct decision *decision) {
+    rw_scene_statistics statistics;
+    memset(&statistics, 0, sizeof statistics);
+    statistics.struct_size = sizeof statistics;
+    if (!api_ok(api, api->scene_get_statistics(scene, &statistics), "rw_scene_get_statistics")) return false;
+    decision->decide_ns = statistics.decide_ns;
+    return read_candidates(api, scene, decision);
+}
+
 /* Totals, the best candidate, and what the choice cost beyond it. */
 static void judge(struct decision *decision) {
     double least = INFINITY;
@@ -49,9 +59,8 @@ static void judge(struct decision *decision) {
             decision->best = i;
         }
     }
-    const double choosing = isnan(decision->decide_ns) ? 0.0 : decision->decide_ns;
     const double best = decision->candidates[decision->best].total_ns;
-    const double chosen = decision->candidates[decision->chosen].total_ns + choosing;
+    const double chosen = decision->candidates[decision->chosen].total_ns + decision->decide_ns;
     decision->regret = chosen / best - 1.0; /* NaN when the chosen one was not measured */
 }
 
@@ -83,14 +92,9 @@ bool decision_scene(const struct bench *bench, struct forced_scenes *forced, con
 
     rw_scene *scene = NULL;
     if (!scene_make(bench, NULL, RW_RAYS_RANDOM, rays, "building the chosen structure", &scene)) return false;
-    rw_scene_statistics statistics;
-    memset(&statistics, 0, sizeof statistics);
-    statistics.struct_size = sizeof statistics;
-    const bool read = api_ok(api, api->scene_get_statistics(scene, &statistics), "rw_scene_get_statistics") &&
-                      read_candidates(api, scene, decision);
+    const bool read = read_decision(api, scene, decision);
     api->scene_release(scene);
     if (!read) return false;
-    decision->decide_ns = statistics.decide_ns;
 
     struct contestant contestants[MOST_STRUCTURES];
     uint32_t racing = 0;
@@ -142,7 +146,6 @@ bool decision_view(const struct bench *bench, const rw_scene *scene, const rw_vi
     memset(decision, 0, sizeof *decision);
     snprintf(decision->title, sizeof decision->title, "%s", title);
     decision->rays = options->count;
-    decision->decide_ns = NAN; /* a view does not tell; it is within the time to make it */
 
     rw_scene *chosen = NULL;
     double create_ns = 0.0;
@@ -154,7 +157,7 @@ bool decision_view(const struct bench *bench, const rw_scene *scene, const rw_vi
     rw_scene *views[MOST_STRUCTURES] = {NULL};
     uint32_t racing = 0;
     memset(contestants, 0, sizeof contestants);
-    bool good = read_candidates(api, chosen, decision);
+    bool good = read_decision(api, chosen, decision);
     for (uint32_t i = 0; good && i < decision->count; ++i) {
         struct candidate *candidate = &decision->candidates[i];
         if (candidate->said.flags & (RW_CANDIDATE_NOT_APPLICABLE | RW_CANDIDATE_OVER_LIMIT)) continue;

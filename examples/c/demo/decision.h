@@ -19,7 +19,7 @@ struct candidate {
 struct decision {
     char title[48]; /* "1,000 random rays" */
     uint64_t rays;
-    double decide_ns; /* what choosing took; NaN: not known */
+    double decide_ns; /* what choosing took */
     uint32_t count;
     uint32_t chosen; /* index of the one that the library took */
     uint32_t best;   /* index of the one that would have been soonest */
