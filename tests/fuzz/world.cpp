@@ -311,7 +311,7 @@ void World::refit() {
     const std::int32_t status =
         rw_scene_refit(scene->held.handle, described.data(), static_cast<std::uint32_t>(described.size()), build.get(),
                        &moved.held.handle);
-    outcome.fails_if(of_view == nullptr && !scene->is_committed(), RW_ERROR_NOT_COMMITTED)
+    outcome.fails_if(!scene->is_committed(), RW_ERROR_NOT_COMMITTED)
         .add(build.outcome())
         .may_fail_if(scene->memory_limit != 0, RW_ERROR_MEMORY_LIMIT);
     const bool made = outcome.check(status);
@@ -357,9 +357,8 @@ void World::make_view() {
     const StructureChoice choice(input_);
     rw_view_options o{};
     o.kind = input_.one_in(24) ? input_.pick({-1, 2}) : input_.between(0, 1);
-    const rw_ray frame =
-        make_ray(input_, of_view != nullptr ? of_view->reference->meshes()
-                                            : scene->meshes); // its origin and direction are those that rays will have
+    // Its origin and direction are those that rays will have.
+    const rw_ray frame = make_ray(input_, of_view != nullptr ? of_view->reference->meshes() : scene->meshes);
     bool finite = true;
     bool directed = false;
     for (int axis = 0; axis < 3; ++axis) {
