@@ -108,15 +108,15 @@ struct TracedRay {
     // Hands the hits with a leaf's triangles to the collector. Returns whether it wants no more. A function of its own, so that what a ray
     // needs for triangles does not take registers from what it needs for boxes.
     HWY_NOINLINE bool test_leaf(NodeRef leaf) {
-        if (!exact) exact.emplace(ray);
+        if (!exact) exact.emplace(ray, time.length);
         const BlockRay block_ray(*exact);
-        const double certain = certain_edge(leaf.distance() + time.origin_distance);
+        const double distance = leaf.distance() + time.origin_distance;
         const double limit = collector.limit();
         const std::uint32_t triangles = leaf.triangles();
         const std::byte* data = bvh.blocks.data() + TriangleBlock<T>::bytes_per_triangle * std::size_t{leaf.index()};
         for (std::uint32_t left = triangles; left > 0;) {
             const std::uint32_t n = left < triangle_block_size ? left : triangle_block_size;
-            if (test_triangle_block(block_ray, TriangleBlock<T>{data, n}, certain, collector)) return true;
+            if (test_triangle_block(block_ray, TriangleBlock<T>{data, n}, distance, collector)) return true;
             data += TriangleBlock<T>::bytes_per_triangle * n;
             left -= n;
         }

@@ -51,6 +51,7 @@ struct RayTime {
     double scale; // s = t * scale - moved
     double moved;
     double error;           // of an s, besides what is relative to it
+    double length;          // of the direction, as DirectionScale has it; 0: not a normal number
     double origin_distance; // of the ray's own origin from the center, along any axis, in the scene's unit
 
     static float clamped(double s) {
