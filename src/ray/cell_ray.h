@@ -29,9 +29,14 @@ struct Interval {
     double far;
 };
 
+// Finite, so that an end at infinity stays there when an error is taken from it or added.
+inline double finite_distance(double t) {
+    return smaller(std::fabs(t), std::numeric_limits<double>::max());
+}
+
 // What the t of a hit at scaled t may be off by, for a ray that nobody moved; see above.
 inline double hit_error(double t, double largest_extent) {
-    const double distance = std::fabs(t);
+    const double distance = finite_distance(t);
     return smaller(0x1p-27 * largest_extent, 0x1p-35 * (largest_extent + distance)) + 0x1p-46 * distance;
 }
 
@@ -49,7 +54,7 @@ public:
         last = upper_end(ray.tmax);
     }
 
-    double margin(double s) const { return base_ + 0x1p-35 * std::fabs(s); }
+    double margin(double s) const { return base_ + 0x1p-35 * finite_distance(s); }
     // No hit whose t is at least the caller's t lies before the one, none at or below it behind the other.
     double lower_end(double t) const {
         const double s = scale_.from_caller(t) - moved_;

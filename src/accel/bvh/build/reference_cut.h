@@ -11,9 +11,9 @@
 namespace raywise {
 
 // A triangle in float32, which rounding may have moved.
-class ClippedTriangle {
+class CuttableTriangle {
 public:
-    explicit ClippedTriangle(const Corners& triangle);
+    explicit CuttableTriangle(const Corners& triangle);
 
     struct Sides {
         Bounds below;
@@ -42,7 +42,7 @@ private:
     bool may_cut_; // false where float32 would not do
 };
 
-inline ClippedTriangle::ClippedTriangle(const Corners& triangle) {
+inline CuttableTriangle::CuttableTriangle(const Corners& triangle) {
     double largest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3& p = triangle[i];
@@ -58,7 +58,7 @@ inline ClippedTriangle::ClippedTriangle(const Corners& triangle) {
 // weights in the triangle of rounded corners. A computed crossing is off by less than 2^-20 M: differences, quotient and
 // product are right to 2^-24 of themselves, edges are no longer than 2 M along an axis, and the last sum rounds by 2^-23 M.
 // So boxes that are 2^-19 M wider, at the plane too, hold the exact points.
-inline ClippedTriangle::Sides ClippedTriangle::cut(const Bounds& part, int axis, float position) const {
+inline CuttableTriangle::Sides CuttableTriangle::cut(const Bounds& part, int axis, float position) const {
     if (!may_cut_) return {part, part};
     Bounds below = Bounds::none();
     Bounds above = Bounds::none();

@@ -103,10 +103,10 @@ public:
     }
 
 private:
-    ClippedTriangle triangle(const BuildItem& item) const {
+    CuttableTriangle triangle(const BuildItem& item) const {
         Corners corners = input_.primitives.corners(item.id);
         for (Vec3& corner : corners) corner -= center_;
-        return ClippedTriangle(corners);
+        return CuttableTriangle(corners);
     }
 
     // Bins of equal width along an axis, and the planes between them.
@@ -173,9 +173,9 @@ private:
             ++bins.exits[last];
             Bounds rest = Bounds::of(item);
             if (first != last) {
-                const ClippedTriangle cuttable = triangle(item);
+                const CuttableTriangle cuttable = triangle(item);
                 for (std::size_t bin = first; bin < last; ++bin) {
-                    const ClippedTriangle::Sides sides = cuttable.cut(rest, axis, bins.planes[bin + 1]);
+                    const CuttableTriangle::Sides sides = cuttable.cut(rest, axis, bins.planes[bin + 1]);
                     bins.bounds[bin].extend(sides.below);
                     rest = sides.above;
                 }
@@ -192,7 +192,7 @@ private:
         both
     };
 
-    ClippedTriangle::Sides parts_of(const BuildItem& item, const SpatialSplit& split) const {
+    CuttableTriangle::Sides parts_of(const BuildItem& item, const SpatialSplit& split) const {
         return triangle(item).cut(Bounds::of(item), split.axis, split.position);
     }
 
@@ -211,7 +211,7 @@ private:
                 sides[i] = Side::above;
             } else {
                 sides[i] = Side::both;
-                const ClippedTriangle::Sides parts = parts_of(item, split);
+                const CuttableTriangle::Sides parts = parts_of(item, split);
                 bounds[0].extend(parts.below);
                 bounds[1].extend(parts.above);
                 counts[0] += 1.0;
@@ -267,7 +267,7 @@ private:
         for (std::uint32_t i = 0; i < task.count; ++i) {
             const BuildItem item = items_[task.begin + i];
             if (sides[i] == Side::both) {
-                const ClippedTriangle::Sides parts = parts_of(item, split); // again: kept, they would take much memory
+                const CuttableTriangle::Sides parts = parts_of(item, split); // again: kept, they would take much memory
                 put(0, parts.below.item(item.id, 1));
                 put(1, parts.above.item(item.id, 1));
             } else {
