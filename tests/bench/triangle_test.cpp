@@ -1,5 +1,5 @@
-// bench_triangle_test: what the exact triangle test costs, as single-ray throughput against the same library with other
-// triangle tests. All in one process, taking turns; the structures they build are alike.
+// bench_triangle_test: what the exact triangle test costs, as single-ray throughput against the same library with another
+// triangle test. All in one process, taking turns; the structures they build are alike.
 #include "bench/library.h"
 #include "bench/meshes.h"
 #include "bench/report.h"

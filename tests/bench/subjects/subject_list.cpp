@@ -72,8 +72,9 @@ void add_ours(TakingPart& all, const SubjectFiles& files) {
     all.subjects.push_back(raywise_subject({ours_chosen, nullptr, instruction_set}, *all.ours));
     all.yardstick.push_back(yardstick_subject());
 
-    if (files.ours_avx2.empty()) {
-        all.left_out.push_back("AVX2 on both sides: no library was given");
+    if (files.ours_avx2.empty() || instruction_set.compare(0, 3, "AVX") != 0) {
+        all.left_out.push_back(std::string("AVX2 on both sides: ") +
+                               (files.ours_avx2.empty() ? "no library was given" : "this processor has none"));
         return;
     }
     all.ours_avx2 = std::make_unique<Library>("raywise", files.ours_avx2);

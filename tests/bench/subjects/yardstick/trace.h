@@ -35,8 +35,9 @@ HWY_INLINE std::uint32_t bits_of(D d, Mask mask) {
     return bytes[0];
 }
 
-HWY_INLINE void prefetch(const void* memory, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(memory) + i);
+// A node, or most of a block.
+HWY_INLINE void prefetch(const void* memory) {
+    for (std::size_t i = 0; i < 256; i += 64) __builtin_prefetch(static_cast<const char*>(memory) + i);
 }
 
 inline bool decide_in_long_double(const YardstickRay& ray, const Block& block, std::size_t i, YardstickHit& hit) {
@@ -99,12 +100,14 @@ public:
         const Vector t = hn::Mul(hn::Div(z, sum), hn::Set(d, inverse_));
         const std::uint32_t inside =
             bits_of(d, hn::And(hn::Ge(t, hn::Set(d, double(ray_.tmin))), hn::Le(t, hn::Set(d, hit.t))));
+        left &= inside | ~certain;
+        if (left == 0) return false;
         alignas(64) double ts[block_size], us[block_size], vs[block_size];
         hn::Store(t, d, ts);
         hn::Store(hn::Div(wb, sum), d, us);
         hn::Store(hn::Div(wc, sum), d, vs);
         bool closer = false;
-        for (left &= inside | ~certain; left != 0; left &= left - 1) {
+        for (; left != 0; left &= left - 1) {
             const auto i = static_cast<std::size_t>(__builtin_ctz(left));
             YardstickHit found{ts[i], us[i], vs[i], block.id[i]};
             if (HWY_UNLIKELY((certain >> i & 1u) == 0) &&
@@ -274,10 +277,10 @@ private:
     HWY_INLINE void push(std::uint64_t entry) {
         stack_.push(entry);
         const auto child = static_cast<std::uint32_t>(entry);
-        if ((child & leaf_flag) != 0)
-            prefetch(&tree_.blocks[child & ~leaf_flag], sizeof(Block));
-        else
-            prefetch(&tree_.nodes[child], sizeof(Node));
+        // A choice of addresses, not of branches: nobody could predict those.
+        const void* const node = tree_.nodes.data() + (child & ~leaf_flag);
+        const void* const block = tree_.blocks.data() + (child & ~leaf_flag);
+        prefetch((child & leaf_flag) != 0 ? block : node);
     }
 
     template <bool any>

@@ -25,7 +25,7 @@ struct alignas(64) Node {
     std::uint32_t child[node_width];
 };
 
-struct alignas(64) Block {
+struct alignas(32) Block {
     float corner[3][3][block_size]; // corner, axis; NaN where there is no triangle
     std::uint32_t id[block_size];
     float extent; // largest coordinate
