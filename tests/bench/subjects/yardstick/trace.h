@@ -91,10 +91,11 @@ public:
         const Vector lowest = hn::Min(hn::Min(wa, wb), wc), highest = hn::Max(hn::Max(wa, wb), wc);
         const double reach = double(block.extent) + double(extent_);
         const double error = 0x1p-47 * reach * reach;
-        const Vector above = hn::Set(d, error), below = hn::Set(d, -error);
-        std::uint32_t left = bits_of(d, hn::Or(hn::Ge(lowest, below), hn::Le(highest, above)));
-        if (HWY_LIKELY(left == 0)) return false;
-        const std::uint32_t certain = bits_of(d, hn::Or(hn::Gt(lowest, above), hn::Lt(highest, below)));
+        Signs signs(lowest, highest, hn::Set(d, error));
+        if (HWY_LIKELY(signs.possible == 0)) return false;
+        if (HWY_UNLIKELY((signs.possible & ~signs.certain) != 0)) signs = Signs(lowest, highest, own_error(a, b, c));
+        std::uint32_t left = signs.possible;
+        const std::uint32_t certain = signs.certain;
         const Vector sum = hn::Add(hn::Add(wa, wb), wc);
         const Vector z = hn::Add(hn::Add(hn::Mul(wa, a.z), hn::Mul(wb, b.z)), hn::Mul(wc, c.z));
         const Vector t = hn::Mul(hn::Div(z, sum), hn::Set(d, inverse_));
@@ -123,8 +124,28 @@ public:
 
 private:
     struct Corner {
-        Vector x, y, z;
+        Vector x, y, z; // relative to the origin, sheared
     };
+
+    // Bits of lanes: hits that an error of the edge functions leaves possible, and those that it cannot undo.
+    struct Signs {
+        std::uint32_t possible, certain;
+
+        HWY_INLINE Signs(Vector lowest, Vector highest, Vector error)
+            : possible(bits_of(Doubles(), hn::Or(hn::Ge(lowest, hn::Neg(error)), hn::Le(highest, error)))),
+              certain(bits_of(Doubles(), hn::Or(hn::Gt(lowest, error), hn::Lt(highest, hn::Neg(error))))) {}
+    };
+
+    // From each triangle's own distances to the ray: they are small where the scene is large or far away.
+    HWY_INLINE Vector own_error(const Corner& a, const Corner& b, const Corner& c) const {
+        const Doubles d;
+        const auto largest = [](Vector p, Vector q, Vector r)
+                                 HWY_ATTR { return hn::Max(hn::Max(hn::Abs(p), hn::Abs(q)), hn::Abs(r)); };
+        const Vector beside = hn::Max(largest(a.x, b.x, c.x), largest(a.y, b.y, c.y));
+        const Vector sheared = hn::Mul(hn::Max(hn::Abs(shear_x_), hn::Abs(shear_y_)), largest(a.z, b.z, c.z));
+        const Vector rounding = hn::Mul(hn::Set(d, 0x1p-50), hn::Add(beside, sheared));
+        return hn::Mul(hn::Mul(hn::Set(d, 5.0), rounding), hn::Add(beside, rounding));
+    }
 
     HWY_INLINE static Vector load(const float* values) {
         return hn::PromoteTo(Doubles(), hn::Load(hn::Rebind<float, Doubles>(), values));
