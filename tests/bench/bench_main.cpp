@@ -109,6 +109,7 @@ bool run(const CommandLine& line) {
                     own_command(line),
                     {},
                     {},
+                    false,
                     {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {

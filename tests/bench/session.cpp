@@ -1,5 +1,6 @@
 #include "bench/session.h"
 
+#include "bench/surface_points.h"
 #include "bench/table.h"
 
 #include "rays/rays.h"
@@ -101,25 +102,7 @@ const Built& SceneUnderTest::built(const Subject& subject, std::size_t kind) {
 RaySet SceneUnderTest::rays(std::size_t kind, std::uint64_t count) {
     const Subject& tracer = *session_.subjects.front();
     const auto closest = [&](const workloads::Rays& asked) {
-        const RaySet rays = rounded(asked);
-        Answers answers;
-        QueryRequest request{rays};
-        request.call = Call::batch;
-        request.threads = session_.all_threads;
-        request.answers = &answers;
-        built(tracer, 0).query(request)->ask(0, rays.size());
-        std::vector<workloads::SurfacePoint> points(rays.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].t = static_cast<double>(answers.t[i]);
-            if (std::isinf(points[i].t)) continue;
-            const auto corner = [&](std::size_t k) {
-                const workloads::Mesh& mesh = scene_.mesh;
-                const std::size_t vertex = 3 * std::size_t{mesh.indices[3 * std::size_t{answers.primitive[i]} + k]};
-                return Vec3(mesh.vertices[vertex], mesh.vertices[vertex + 1], mesh.vertices[vertex + 2]);
-            };
-            points[i].normal = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-        }
-        return points;
+        return surface_points(scene_.mesh, built(tracer, 0), asked, session_.all_threads);
     };
     const workloads::Mesh& aimed_at = scene_.aimed_at ? *scene_.aimed_at : scene_.mesh;
     RaySet rays = rounded(workloads::ray_distributions()[kind].make({aimed_at, count, ray_seed, closest}));
