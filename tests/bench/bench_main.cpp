@@ -99,18 +99,8 @@ bool run(const CommandLine& line) {
             }
         throw std::runtime_error("nobody is called " + line.memory_of);
     }
-    Session session{line.options,
-                    effort_of(line.options),
-                    *all.ours,
-                    all.subjects,
-                    all.yardstick,
-                    all.avx2,
-                    this_machine().threads,
-                    own_command(line),
-                    {},
-                    {},
-                    false,
-                    {}};
+    Session session{line.options,           effort_of(line.options), *all.ours, all.subjects, all.yardstick, all.avx2,
+                    this_machine().threads, own_command(line),       {},        {},           false,         {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {
         if (line.options.scenes.empty() ? row.quick || !line.options.quick : wanted(line.options.scenes, row.name))
