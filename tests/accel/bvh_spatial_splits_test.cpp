@@ -1,7 +1,7 @@
-#include "accel/bvh_spatial_splits.h"
+#include "accel/bvh/build/spatial_splits.h"
 
-#include "accel/bvh_build.h"
-#include "accel/bvh_reference_cut.h"
+#include "accel/bvh/build/build.h"
+#include "accel/bvh/build/reference_cut.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
 #include "accel/dense_region.h"
@@ -28,8 +28,8 @@ BvhTree build_cut(const BuildInput& input, const BvhBuildOptions& options, doubl
     BvhTree tree;
     tree.frame = scene_frame(input.primitives);
     const auto report = [&](std::uint64_t /*primitives*/) { input.progress.report(0.0, "bvh"); };
-    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input, TreeCosts(input, options),
-                              report, tree);
+    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input,
+                              TreeCosts(input, options), report, tree);
     return tree;
 }
 
