@@ -7,10 +7,14 @@
 
 namespace raywise {
 
+std::string SkipEntry::place(const char* where, std::uint64_t index) {
+    return index == no_index ? std::string(where) : std::string(where) + "[" + std::to_string(index) + "]";
+}
+
 std::uint32_t SkipEntry::number(const Primitives& primitives, const char* where, std::uint64_t index) const {
     const auto& meshes = primitives.meshes();
     const auto fail = [&](const std::string& what) {
-        return Error(Status::ERROR_INDEX_OUT_OF_RANGE, std::string(where) + "[" + std::to_string(index) + "]: " + what);
+        return Error(Status::ERROR_INDEX_OUT_OF_RANGE, place(where, index) + ": " + what);
     };
     if (geometry >= meshes.size()) {
         throw fail("geometry " + std::to_string(geometry) + " is out of range, the scene has " +

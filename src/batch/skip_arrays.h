@@ -7,6 +7,7 @@
 #include "ray/query.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace raywise {
@@ -19,8 +20,10 @@ struct SkipEntry {
     bool stands_for_nothing() const {
         return primitive == PrimitiveHit::no_primitive || primitive == ~std::uint64_t{0};
     }
-    // The primitive's number. Throws Error(ERROR_INDEX_OUT_OF_RANGE), its text behind `where`, for an id that is not there.
-    std::uint32_t number(const Primitives& primitives, const char* where, std::uint64_t index) const;
+    // The primitive's number. Throws Error(ERROR_INDEX_OUT_OF_RANGE), its text behind where[index], for an id that is not there.
+    std::uint32_t number(const Primitives& primitives, const char* where, std::uint64_t index = no_index) const;
+    static constexpr std::uint64_t no_index = ~std::uint64_t{0};
+    static std::string place(const char* where, std::uint64_t index);
 };
 
 struct SkipArrays {

@@ -27,6 +27,7 @@ namespace raywise::bench {
     X(rw_scene_get_statistics)    \
     X(rw_scene_intersect)         \
     X(rw_scene_occluded)          \
+    X(rw_scene_normal)            \
     X(rw_scene_intersect_batch)   \
     X(rw_scene_occluded_batch)
 

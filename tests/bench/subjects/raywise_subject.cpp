@@ -35,11 +35,11 @@ public:
         for (std::size_t i = first; i < last; ++i) {
             if constexpr (question == Question::any) {
                 std::int32_t occluded = 0;
-                occluded_(scene_, &rays_[i], &occluded);
+                occluded_(scene_, &rays_[i], nullptr, &occluded);
                 hits += occluded != 0 ? 1 : 0;
             } else {
                 rw_hit hit;
-                intersect_(scene_, &rays_[i], &hit);
+                intersect_(scene_, &rays_[i], nullptr, &hit);
                 hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
             }
         }
