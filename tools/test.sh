@@ -74,6 +74,14 @@ report_ctest() {
         failures+=("ctest, preset $1: no closing line")
 }
 
+# PRESET: the tests that took longest, so that nobody has to look for what to make shorter.
+readonly SLOWEST=10
+report_slowest() {
+    printf 'the %d slowest (seconds)\n' "$SLOWEST"
+    sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) \.*.* +([0-9]+\.[0-9]+) sec$/\2 \1/p' "$(ctest_log "$1")" |
+        sort -rn | head -n "$SLOWEST" | awk '{ printf "%9.1f  %s\n", $1, $2 }'
+}
+
 # cargo prints one line per test program, and one saying 0 for each that has no tests.
 closing_lines_rust() { grep -hE '^test result: ' "$LOGS"/rust*.log | grep -vE ' 0 passed; 0 failed; 0 ignored'; }
 
@@ -112,6 +120,7 @@ summary() {
     step "Summary"
     printf '\nC and C++, and all that follows (ctest, preset dev)\n'
     report_ctest dev
+    report_slowest dev
     report "Rust (cargo test)" "$(closing_lines_rust 2>/dev/null || true)"
     report "Python (pytest)" "$(closing_lines_python || true)"
     if [[ ${#flags[@]} -eq 0 ]]; then

@@ -47,7 +47,7 @@ bool test_kernel(const Primitives& primitives, const ExactRay& ray, const std::u
             }
             write_block_triangle(data, n, i, numbers, ids[i]);
         }
-        if (test_triangle_block(block_ray, TriangleBlock<double>{data, n}, certain_edge(farthest), collector))
+        if (test_triangle_block(block_ray, TriangleBlock<double>{data, n}, farthest, collector))
             return true;
     }
     return false;

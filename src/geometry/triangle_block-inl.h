@@ -18,9 +18,9 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
@@ -58,14 +58,9 @@ public:
     TriangleVector shear_x, shear_y;
 };
 
-// One corner of each triangle: relative to the origin, and sheared.
+// One corner of each triangle, relative to the origin and sheared; z along the major axis.
 struct BlockCorner {
-    TriangleVector dx, dy, z;
-    TriangleVector x, y;
-
-    HWY_INLINE TriangleVector largest_component() const {
-        return hn::Max(hn::Max(hn::Abs(dx), hn::Abs(dy)), hn::Abs(z));
-    }
+    TriangleVector x, y, z;
 };
 
 HWY_INLINE TriangleVector load_coordinates(const double* line) { return hn::LoadU(TriangleLanes(), line); }
@@ -79,14 +74,14 @@ HWY_INLINE BlockCorner block_corner(const BlockRay& ray, const TriangleBlock<T>&
     const TriangleVector dx = hn::Sub(load_coordinates(block.line(corner, ray.x) + lane), ray.origin_x);
     const TriangleVector dy = hn::Sub(load_coordinates(block.line(corner, ray.y) + lane), ray.origin_y);
     const TriangleVector z = hn::Sub(load_coordinates(block.line(corner, ray.z) + lane), ray.origin_z);
-    return {dx, dy, z, hn::Sub(dx, hn::Mul(ray.shear_x, z)), hn::Sub(dy, hn::Mul(ray.shear_y, z))};
+    return {hn::Sub(dx, hn::Mul(ray.shear_x, z)), hn::Sub(dy, hn::Mul(ray.shear_y, z)), z};
 }
 
 HWY_INLINE TriangleVector block_edge(const BlockCorner& p, const BlockCorner& q) {
     return hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
 }
 
-// What is known of the triangles in the lanes after a close look (triangle_test_detail::test_closely). Bits of lanes.
+// What is known of the triangles in the lanes after a close look. Bits of lanes.
 struct BlockHits {
     std::uint32_t misses;  // for certain
     std::uint32_t certain; // hits, by float64 alone
@@ -95,59 +90,84 @@ struct BlockHits {
     alignas(64) double v[triangle_block_size];
 };
 
+// The steps of triangle_test_detail::test_closely, with bounds that are no smaller. What is certain here is so there. A corner's largest
+// component relative to the origin is not had any more; it is between max |z| and that plus the largest sheared coordinate, because no
+// shear is above 1.
 HWY_INLINE void look_closely(const ExactRay& ray, const BlockCorner& a, const BlockCorner& b, const BlockCorner& c,
                              TriangleVector wa, TriangleVector wb, TriangleVector wc, BlockHits& hits) {
     const TriangleLanes d;
     const auto constant = [&](double value) HWY_ATTR { return hn::Set(d, value); };
-    const TriangleVector farthest =
-        hn::Max(hn::Max(a.largest_component(), b.largest_component()), c.largest_component());
-    TriangleVector reach = hn::Add(hn::Abs(a.x), hn::Abs(a.y));
-    reach = hn::Add(hn::Add(reach, hn::Abs(b.x)), hn::Abs(b.y));
-    reach = hn::Add(hn::Add(reach, hn::Abs(c.x)), hn::Abs(c.y));
-    const TriangleVector shear_error = hn::Mul(constant(0x1p-50), farthest);
-    const TriangleVector error =
-        hn::Add(hn::Mul(hn::Mul(constant(1.01), shear_error), hn::Add(reach, hn::Mul(constant(2.0), shear_error))),
-                hn::Mul(hn::Mul(constant(0x1p-51), reach), reach));
-    const auto in_range = hn::And(hn::Gt(farthest, constant(0x1p-400)), hn::Lt(farthest, constant(0x1p400)));
-    const TriangleVector highest = hn::Max(hn::Max(wa, wb), wc);
-    const TriangleVector lowest = hn::Min(hn::Min(wa, wb), wc);
-    const auto misses = hn::And(in_range, hn::And(hn::Gt(highest, error), hn::Lt(lowest, hn::Neg(error))));
-
     const TriangleVector z_low = hn::Min(hn::Min(a.z, b.z), c.z);
     const TriangleVector z_high = hn::Max(hn::Max(a.z, b.z), c.z);
-    const TriangleVector smallest_edge = hn::Min(hn::Min(hn::Abs(wa), hn::Abs(wb)), hn::Abs(wc));
+    const TriangleVector farthest_z = hn::Max(z_high, hn::Neg(z_low));
+    const TriangleVector ax = hn::Abs(a.x), ay = hn::Abs(a.y);
+    const TriangleVector bx = hn::Abs(b.x), by = hn::Abs(b.y);
+    const TriangleVector cx = hn::Abs(c.x), cy = hn::Abs(c.y);
+    const TriangleVector reach = hn::Add(hn::Add(hn::Add(ax, ay), hn::Add(bx, by)), hn::Add(cx, cy));
+    const TriangleVector farthest =
+        hn::Add(hn::Max(hn::Max(hn::Max(ax, ay), hn::Max(bx, by)), hn::Max(cx, cy)), farthest_z);
+    // 1.02 and 1.01 for the rounding of these sums.
+    const TriangleVector shear_error = hn::Mul(constant(1.02 * 0x1p-50), farthest);
+    const TriangleVector error = hn::Add(hn::Mul(shear_error, hn::Add(reach, hn::Add(shear_error, shear_error))),
+                                         hn::Mul(hn::Mul(constant(1.01 * 0x1p-51), reach), reach));
+    const TriangleVector highest = hn::Max(hn::Max(wa, wb), wc);
+    const TriangleVector lowest = hn::Min(hn::Min(wa, wb), wc);
+    const TriangleVector below = hn::Neg(error);
+    const auto misses = hn::And(hn::Gt(highest, error), hn::Lt(lowest, below));
+    const auto signs_certain = hn::Or(hn::Gt(lowest, error), hn::Lt(highest, below));
+
     const TriangleVector sum = hn::Add(hn::Add(wa, wb), wc);
     const TriangleVector area = hn::Abs(sum);
     const TriangleVector weight_error = hn::Mul(constant(3.0), error);
     const auto weights_certain = hn::And(
         hn::Le(hn::Mul(weight_error, constant(0x1p30)), area),
-        hn::Le(hn::Mul(hn::Mul(weight_error, hn::Sub(z_high, z_low)), constant(0x1p40)), hn::Mul(area, farthest)));
+        hn::Le(hn::Mul(hn::Mul(weight_error, hn::Sub(z_high, z_low)), constant(0x1p40)), hn::Mul(area, farthest_z)));
 
     const TriangleVector u = hn::Div(wb, sum);
     const TriangleVector v = hn::Div(wc, sum);
     const TriangleVector mean = hn::Add(a.z, hn::Add(hn::Mul(u, hn::Sub(b.z, a.z)), hn::Mul(v, hn::Sub(c.z, a.z))));
     const TriangleVector z =
         hn::IfThenElse(hn::Lt(mean, z_low), z_low, hn::IfThenElse(hn::Lt(z_high, mean), z_high, mean));
-    const TriangleVector z_error = hn::Mul(constant(0x1p-38), farthest);
-    const auto around_origin = hn::And(hn::Le(z_low, constant(0.0)), hn::Ge(z_high, constant(0.0)));
-    const auto near_origin =
-        hn::And(hn::And(around_origin, hn::Le(hn::Abs(z), z_error)),
-                hn::Le(constant(ray.scaled_tmin), hn::Mul(constant(2.0), z_error)));
     const TriangleVector t = hn::Mul(hn::Mul(z, constant(ray.inverse_major)), constant(ray.scale.inverse_length()));
+    // Near the origin the sign of z is a matter for exact arithmetic.
+    const auto away = hn::Gt(hn::Abs(z), hn::Mul(constant(0x1p-38), farthest));
+    const auto in_range = hn::And(hn::Gt(farthest_z, constant(0x1p-400)), hn::Lt(farthest, constant(0x1p400)));
 
-    hits.misses = triangle_bits(misses);
-    hits.certain = ray.scale.is_normal()
-                       ? triangle_bits(hn::AndNot(
-                             near_origin, hn::And(hn::And(in_range, hn::Gt(smallest_edge, error)), weights_certain)))
-                       : 0;
+    hits.misses = triangle_bits(hn::And(misses, in_range));
+    const auto certain = hn::And(hn::And(signs_certain, weights_certain), hn::And(away, in_range));
+    hits.certain = ray.scale.is_normal() ? triangle_bits(certain) : 0;
     hn::Store(hn::Add(t, constant(0.0)), d, hits.t); // never a negative zero
     hn::Store(hn::Add(u, constant(0.0)), d, hits.u);
     hn::Store(hn::Add(v, constant(0.0)), d, hits.v);
 }
 
+// Which lanes certainly have no hit with t in [tmin, limit], without a division: most of what a ray's line meets lies behind its origin, as the
+// surface that it starts on does, or behind what it has hit.
+//
+// For a triangle that is met, the exact edges W are of one sign, and the hit's z times |sum W| is the sum of W z with that sign. With D the
+// distance, edges are off by less than C = certain_edge(D) each, z by 2^-53 D: the sum of w z is off by less than 4 C D, rounding
+// included, and has the sign of the computed sum where that is beyond 4 C. The reported z is off by less than 2^-27 D more (ray/cell_ray.h).
+HWY_INLINE std::uint32_t outside_interval(const ExactRay& ray, double distance, double certain, double limit,
+                                          const BlockCorner& a, const BlockCorner& b, const BlockCorner& c,
+                                          TriangleVector wa, TriangleVector wb, TriangleVector wc) {
+    const TriangleLanes d;
+    const TriangleVector sum = hn::Add(hn::Add(wa, wb), wc);
+    const TriangleVector weighted = hn::Add(hn::Add(hn::Mul(wa, a.z), hn::Mul(wb, b.z)), hn::Mul(wc, c.z));
+    const TriangleVector area = hn::Abs(sum);
+    // Along the ray: by the sign of the sum, and of the direction along the major axis.
+    const double along = std::fabs(at(ray.direction, ray.major_axis));
+    const TriangleVector sign = hn::And(hn::Xor(sum, hn::Set(d, ray.inverse_major)), hn::SignBit(d));
+    const TriangleVector z = hn::Xor(weighted, sign);
+    const TriangleVector slack = hn::Add(hn::Mul(area, hn::Set(d, 0x1p-27 * distance)), hn::Set(d, 4.0 * certain * distance));
+    const auto before = hn::Lt(hn::Add(z, slack), hn::Mul(area, hn::Set(d, ray.scaled_tmin * along)));
+    const auto beyond = hn::Gt(hn::Sub(z, slack), hn::Mul(area, hn::Set(d, ray.scale.from_caller(limit) * along)));
+    const auto outside = hn::And(hn::Or(before, beyond), hn::Gt(area, hn::Set(d, 4.0 * certain)));
+    return ray.scale.is_normal() ? triangle_bits(outside) : 0;
+}
+
 // test_triangle_block for the triangles from `lane` on, as many as a register has lanes.
 template <class T, class Collector>
-HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, std::uint32_t lane, double certain,
+HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, std::uint32_t lane, double distance,
                            Collector& collector) {
     const TriangleLanes d;
     const BlockCorner a = block_corner(ray, block, 0, lane);
@@ -158,10 +178,13 @@ HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, s
     const TriangleVector wc = block_edge(a, b);
     const TriangleVector highest = hn::Max(hn::Max(wa, wb), wc);
     const TriangleVector lowest = hn::Min(hn::Min(wa, wb), wc);
+    const double certain = certain_edge(distance);
     const auto misses = hn::And(hn::Gt(highest, hn::Set(d, certain)), hn::Lt(lowest, hn::Set(d, -certain)));
     // Lanes behind the block hold anything.
     std::uint32_t bits = ~triangle_bits(misses) & ((1u << (block.n - lane)) - 1u) & ((1u << triangle_lanes) - 1u);
     if (HWY_LIKELY(bits == 0)) return false;
+    bits &= ~outside_interval(ray.ray, distance, certain, collector.limit(), a, b, c, wa, wb, wc);
+    if (bits == 0) return false;
 
     BlockHits hits;
     look_closely(ray.ray, a, b, c, wa, wb, wc, hits);
@@ -181,15 +204,15 @@ HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, s
 }
 
 // Hands the hits of a ray with a block's triangles to the collector (accel/collectors.h), within the ray's interval.
-// certain: certain_edge() of a distance that no corner of the block is beyond. Returns whether the collector wants no more.
+// distance: no corner of the block is farther from the ray's origin along any axis. Returns whether the collector wants no more.
 template <class T, class Collector>
-HWY_INLINE bool test_triangle_block(const BlockRay& ray, const TriangleBlock<T>& block, double certain,
+HWY_INLINE bool test_triangle_block(const BlockRay& ray, const TriangleBlock<T>& block, double distance,
                                     Collector& collector) {
     if constexpr (triangle_lanes == triangle_block_size) {
-        return test_lanes(ray, block, 0, certain, collector);
+        return test_lanes(ray, block, 0, distance, collector);
     } else {
         for (std::uint32_t lane = 0; lane < block.n; lane += triangle_lanes) {
-            if (test_lanes(ray, block, lane, certain, collector)) return true;
+            if (test_lanes(ray, block, lane, distance, collector)) return true;
         }
         return false;
     }

@@ -29,9 +29,14 @@ struct Interval {
     double far;
 };
 
+// Finite, so that an end at infinity stays there when an error is taken from it or added.
+inline double finite_distance(double t) {
+    return smaller(std::fabs(t), std::numeric_limits<double>::max());
+}
+
 // What the t of a hit at scaled t may be off by, for a ray that nobody moved; see above.
 inline double hit_error(double t, double largest_extent) {
-    const double distance = std::fabs(t);
+    const double distance = finite_distance(t);
     return smaller(0x1p-27 * largest_extent, 0x1p-35 * (largest_extent + distance)) + 0x1p-46 * distance;
 }
 
@@ -49,7 +54,7 @@ public:
         last = upper_end(ray.tmax);
     }
 
-    double margin(double s) const { return base_ + 0x1p-35 * std::fabs(s); }
+    double margin(double s) const { return base_ + 0x1p-35 * finite_distance(s); }
     // No hit whose t is at least the caller's t lies before the one, none at or below it behind the other.
     double lower_end(double t) const {
         const double s = scale_.from_caller(t) - moved_;
@@ -74,33 +79,17 @@ public:
     Vec3 start;     // on the line of the ray
     Vec3 direction; // largest component in [1, 2)
     Vec3 inverse;   // 1 / direction; infinite where the direction is zero
-    Vec3 plane_error{0.0}; // what distances of planes on each axis may be off by besides; zero where the ray was not moved
-    double first;   // the s before which no hit lies
-    double last;    // the s behind which none does
+    Vec3 plane_error{
+        0.0};     // what distances of planes on each axis may be off by besides; zero where the ray was not moved
+    double first; // the s before which no hit lies
+    double last;  // the s behind which none does
 
     // In sizes of the bounds.
     static constexpr double farthest = 4.0;
 
 private:
-    void move(const Vec3& center, double size, double largest_extent) {
-        const double distance = max_component(magnitudes(start - center));
-        if (!(distance < 0x1p60 * size)) { // so far away that the line passes anywhere
-            base_ = std::numeric_limits<double>::infinity();
-            return;
-        }
-        // Twice: the first step is as near as the steps of s allow, which are 2^-52 of it, and rounded by 2^-53 of what is left.
-        const double length2 = glm::dot(direction, direction);
-        for (int step = 0; step < 2; ++step) {
-            const double s = -glm::dot(start - center, direction) / length2;
-            for (int axis = 0; axis < 3; ++axis) start[axis] = std::fma(s, direction[axis], start[axis]);
-            moved_ += s;
-        }
-        const double start_error = 0x1p-51 * max_component(magnitudes(start)) + 0x1p-103 * distance;
-        // An axis without movement keeps its coordinate.
-        for (int axis = 0; axis < 3; ++axis)
-            plane_error[axis] = direction[axis] == 0.0 ? 0.0 : start_error / std::fabs(direction[axis]);
-        base_ = 0x1p-27 * largest_extent + 0x1p-46 * std::fabs(moved_);
-    }
+    // To the point of the line that is nearest to the center.
+    void move(const Vec3& center, double size, double largest_extent);
 
     DirectionScale scale_;
     double moved_ = 0.0;

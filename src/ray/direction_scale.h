@@ -26,6 +26,17 @@ public:
         }
     }
 
+    // length: a power of two, of length() of another.
+    static DirectionScale of_length(double length) {
+        DirectionScale scale;
+        std::uint64_t bits;
+        std::memcpy(&bits, &length, sizeof bits);
+        scale.exponent_ = static_cast<int>(bits >> 52) - 1023;
+        scale.length_ = length;
+        scale.inverse_length_ = power_of_two(-scale.exponent_);
+        return scale;
+    }
+
     // By multiplication where the power of two and its inverse are normal numbers: ldexp takes ten times as long.
     double to_caller(double scaled_t) const {
         return is_normal() ? scaled_t * inverse_length_ : std::ldexp(scaled_t, -exponent_);
@@ -33,6 +44,7 @@ public:
     double from_caller(double t) const { return is_normal() ? t * length_ : std::ldexp(t, exponent_); }
 
     bool is_normal() const { return length_ != 0.0; }
+    double length() const { return length_; } // 0 where it is not normal
     double inverse_length() const { return inverse_length_; } // where it is normal
 
 private:

@@ -29,12 +29,14 @@ struct ExactRay {
     static constexpr double smallest_direction = 0x1p-500;
 
     // ray: traceable.
-    explicit ExactRay(const Ray& ray) : origin(ray.origin), tmin(ray.tmin), tmax(ray.tmax) {
+    explicit ExactRay(const Ray& ray) : ExactRay(ray, 0.0) {}
+    // length: of the direction, where its DirectionScale was found before; else 0.
+    ExactRay(const Ray& ray, double length) : origin(ray.origin), tmin(ray.tmin), tmax(ray.tmax) {
         const MajorAxis major(ray.direction);
         major_axis = major.axis;
         x_axis = major_axis == 2 ? 0 : major_axis + 1;
         y_axis = x_axis == 2 ? 0 : x_axis + 1;
-        scale = DirectionScale(major.magnitude);
+        scale = length != 0.0 ? DirectionScale::of_length(length) : DirectionScale(major.magnitude);
         if (scale.is_normal()) {
             direction = ray.direction * scale.inverse_length();
         } else {

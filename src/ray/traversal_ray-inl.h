@@ -59,7 +59,8 @@ HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, Traversa
 
     const auto length_bits = hn::And(hn::BitCast(du, largest), hn::Set(du, std::uint64_t{0x7FF} << 52));
     const auto length = hn::BitCast(d, length_bits);
-    time.scale = hn::GetLane(length) * frame.scale();
+    time.length = hn::GetLane(length);
+    time.scale = time.length * frame.scale();
     time.moved = 0.0;
     time.error = 0.0;
     time.origin_distance = hn::GetLane(distance);

@@ -66,7 +66,9 @@ void know_nothing(TraversalRay& result, RayTime& time) {
         result.exit_offset[axis] = -0x1p50f;
         result.direction[axis] = 1.0f;
     }
-    time = {0.0, 0.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    time.scale = 0.0;
+    time.moved = 0.0;
+    time.error = time.origin_distance = std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -78,6 +80,7 @@ RaySetup set_up_rare_ray(const Ray& ray, const SceneFrame& frame, TraversalRay& 
     for (int axis = 0; axis < 3; ++axis) direction[axis] = scale.to_caller(ray.direction[axis]);
     const Vec3 center = frame.center();
     time.scale = scale.from_caller(frame.scale());
+    time.length = scale.length();
     time.moved = 0.0;
     time.error = 0.0;
     time.origin_distance = max_component(magnitudes(ray.origin - center));

@@ -13,7 +13,7 @@
 // are moved out by box_slack, 16 u of them, which is more than all of it on both sides.
 //
 // Hits. A hit's t is the exact one but for an error that depends on its triangle's extent E, 2^-28.6 E, and one relative to the distance
-// (ray/cell_ray.h). The first is in the boxes: those of leaves are wider by 2^-26 of their triangles' extent on every side (accel/wide_bvh_write.h), which moves entry
+// (ray/cell_ray.h). The first is in the boxes: those of leaves are wider by 2^-26 of their triangles' extent on every side (accel/bvh/write.h), which moves entry
 // and exit by at least half as much, as no component of the direction is above 2. The second is nothing against box_slack; where the ray
 // was moved it is RayTime::error, 2^-48 of the way.
 //
@@ -37,7 +37,7 @@ struct alignas(64) TraversalRay {
     float first; // the s before which none is
     float exit_offset[3];
     std::uint32_t octant; // a bit for each axis on which the ray runs backwards, and enters through the upper plane
-    float direction[3]; // of any length
+    float direction[3];   // of any length
     float unused;
 
     static constexpr float smallest_direction = 0x1p-120f;
@@ -51,6 +51,7 @@ struct RayTime {
     double scale; // s = t * scale - moved
     double moved;
     double error;           // of an s, besides what is relative to it
+    double length;          // of the direction, as DirectionScale has it; 0: not a normal number
     double origin_distance; // of the ray's own origin from the center, along any axis, in the scene's unit
 
     static float clamped(double s) {

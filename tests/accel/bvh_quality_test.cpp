@@ -1,8 +1,8 @@
-#include "accel/bvh_quality.h"
+#include "accel/bvh/bvh_quality.h"
 
+#include "accel/bvh/node.h"
 #include "accel/bvh_testing.h"
 #include "accel/sticks_testing.h"
-#include "accel/wide_bvh.h"
 
 #include <algorithm>
 #include <cmath>

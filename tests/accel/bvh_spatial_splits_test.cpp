@@ -1,7 +1,7 @@
-#include "accel/bvh_spatial_splits.h"
+#include "accel/bvh/build/spatial_splits.h"
 
-#include "accel/bvh_build.h"
-#include "accel/bvh_reference_cut.h"
+#include "accel/bvh/build/build.h"
+#include "accel/bvh/build/reference_cut.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
 #include "accel/dense_region.h"
@@ -28,8 +28,8 @@ BvhTree build_cut(const BuildInput& input, const BvhBuildOptions& options, doubl
     BvhTree tree;
     tree.frame = scene_frame(input.primitives);
     const auto report = [&](std::uint64_t /*primitives*/) { input.progress.report(0.0, "bvh"); };
-    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input, TreeCosts(input, options),
-                              report, tree);
+    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input,
+                              TreeCosts(input, options), report, tree);
     return tree;
 }
 
@@ -133,7 +133,7 @@ TEST(BvhSpatialSplits, CutsLoseNoPoint) {
         const BoxF rounded = round_outwards(box);
         Bounds part{Lanes{rounded.lower.x, rounded.lower.y, rounded.lower.z, 0.0f},
                     Lanes{rounded.upper.x, rounded.upper.y, rounded.upper.z, 0.0f}};
-        const ClippedTriangle triangle(corners);
+        const CuttableTriangle triangle(corners);
         // Three cuts, one after the other, each of what is above or below the one before.
         for (int cut = 0; cut < 3; ++cut) {
             const int axis = random.integer(0, 2);
@@ -142,7 +142,7 @@ TEST(BvhSpatialSplits, CutsLoseNoPoint) {
                                                                          static_cast<double>(part.upper[axis]));
             const auto plane = static_cast<float>(at);
             if (!(plane > part.lower[axis] && plane < part.upper[axis])) continue;
-            const ClippedTriangle::Sides sides = triangle.cut(part, axis, plane);
+            const CuttableTriangle::Sides sides = triangle.cut(part, axis, plane);
             for (int i = 0; i <= 16; ++i) {
                 for (int j = 0; i + j <= 16; ++j) {
                     const Vec3 p =

@@ -1,6 +1,6 @@
-#include "accel/bvh.h"
+#include "accel/bvh/bvh.h"
 
-#include "accel/binary_traversal.h"
+#include "accel/bvh/binary_traversal.h"
 #include "accel/bvh_testing.h"
 
 #include <algorithm>

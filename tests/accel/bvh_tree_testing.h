@@ -1,10 +1,10 @@
 // What the tests of builders ask of a tree.
 #pragma once
 
-#include "accel/binary_traversal.h"
-#include "accel/bvh_build.h"
-#include "accel/bvh_build_bounds.h"
-#include "accel/bvh_build_costs.h"
+#include "accel/bvh/binary_traversal.h"
+#include "accel/bvh/build/bounds.h"
+#include "accel/bvh/build/build.h"
+#include "accel/bvh/build/costs.h"
 #include "accel/bvh_testing.h"
 
 #include <algorithm>

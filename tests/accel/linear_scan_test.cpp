@@ -1,6 +1,6 @@
 // The linear scan against a plain loop over the exact test, bit for bit: read in place and gathered, ray by ray and many rays at a time,
 // at every level of vector instructions.
-#include "accel/linear_scan.h"
+#include "accel/scan/linear_scan.h"
 
 #include "accel/bvh_testing.h"
 #include "geometry/every_target.h"
@@ -97,7 +97,8 @@ void expect_answers(const LinearScan& scan, const Expected& expected) {
     for (std::size_t i = 0; i < expected.rays.size(); ++i) {
         const Ray& ray = expected.rays[i];
         const Query& query = expected.queries[i];
-        ASSERT_TRUE(same_hit(scan.closest(ray, query), expected.closest[i])) << "closest: " << text_of(expected.rays[i]);
+        ASSERT_TRUE(same_hit(scan.closest(ray, query), expected.closest[i]))
+            << "closest: " << text_of(expected.rays[i]);
         ASSERT_EQ(scan.any(ray, query), expected.closest[i].is_hit()) << "any: " << text_of(expected.rays[i]);
         std::vector<PrimitiveHit> all(1); // must be appended to, not replaced
         scan.all(ray, query, all);

@@ -1,4 +1,4 @@
-#include "accel/projected_bvh.h"
+#include "accel/projected/projected_bvh.h"
 
 #include "accel/bvh_testing.h"
 
@@ -297,9 +297,7 @@ TEST(ProjectedBvh, ViewRaysAreProjected) {
     EXPECT_EQ(cube.plane_count(), 6u);
     EXPECT_EQ(camera.plane_count(), 1u);
     EXPECT_EQ(parallel.plane_count(), 1u);
-    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) {
-        return bvh.uses_projection(ExactRay(ray));
-    };
+    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) { return bvh.uses_projection(ExactRay(ray)); };
     for (int i = 0; i < 2000; ++i) {
         const Vec3 p = random.in_cube();
         EXPECT_TRUE(projects(cube, ray_between(eye, p)));

@@ -1,4 +1,4 @@
-#include "accel/projection.h"
+#include "accel/projected/projection.h"
 
 #include "accel/bvh_testing.h"
 
@@ -86,8 +86,7 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
         const Vec3 eye = random.in_cube();
         const bool cube = round % 2 == 0;
         const ViewPlanes view(
-            {ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)},
-            unit_scene);
+            {ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)}, unit_scene);
         for (int i = 0; i < 100; ++i) {
             const double size = std::ldexp(1.0, -random.integer(0, 20));
             const Vec3 middle = random.in_cube(0.5);

@@ -1,10 +1,10 @@
-#include "accel/wide_bvh_refit.h"
+#include "accel/bvh/refit.h"
 
-#include "accel/bvh.h"
-#include "accel/bvh_quality.h"
+#include "accel/bvh/bvh.h"
+#include "accel/bvh/bvh_quality.h"
+#include "accel/bvh/write.h"
 #include "accel/bvh_testing.h"
 #include "accel/sticks_testing.h"
-#include "accel/wide_bvh_write.h"
 
 #include <atomic>
 #include <cstring>

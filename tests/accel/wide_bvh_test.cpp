@@ -1,8 +1,8 @@
 // What is special about the tree that rays are traced in: float32 coordinates in a frame of their own, and a walk for each level of vector
 // instructions. tests/accel/bvh_test.cpp compares its answers over many scenes.
-#include "accel/wide_bvh.h"
+#include "accel/bvh/node.h"
 
-#include "accel/bvh.h"
+#include "accel/bvh/bvh.h"
 #include "accel/bvh_testing.h"
 #include "geometry/every_target.h"
 

@@ -1,6 +1,6 @@
 #include "oracle/compare.h"
 
-#include "accel/linear_scan.h"
+#include "accel/scan/linear_scan.h"
 #include "oracle/judge.h"
 #include "oracle/plain_scan.h"
 
@@ -43,14 +43,11 @@ class Trial {
 public:
     Trial(const Scene& scene, const Judge& judge, const Primitives& primitives, const Accel& accel, const Ray& ray,
           Comparison& result)
-        : scene_(scene),
-          ray_(ray),
-          result_(result),
-          prepared_(ray),
-          line_hits_(judge.line_hits(ray)) {
+        : scene_(scene), ray_(ray), result_(result), prepared_(ray), line_hits_(judge.line_hits(ray)) {
         // As a fraction: the caller's unit may make it too small for a double.
         const Box& box = primitives.bounds();
-        const double reach = max_component(larger(magnitudes(box.lower - ray.origin), magnitudes(box.upper - ray.origin)));
+        const double reach =
+            max_component(larger(magnitudes(box.lower - ray.origin), magnitudes(box.upper - ray.origin)));
         double bound = 0x1p-37 * larger(reach, 0x1p-900);
         // A t below the normal numbers is rounded to their steps, which are coarse in units of a long direction.
         bound = larger(bound, 2.0 * prepared_.scale.from_caller(std::numeric_limits<double>::denorm_min()));

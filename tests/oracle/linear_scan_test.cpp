@@ -35,6 +35,19 @@ TEST(LinearScan, AgreesWithTheJudgeOnHardRays) {
     EXPECT_GT(all.hits, 5000u);
 }
 
+TEST(LinearScan, AgreesWithTheJudgeOnFarScenes) {
+    Comparison all;
+    for (const Scene& scene : far_scenes()) {
+        all.add(compare_with_judge(scene, random_rays(scene, 10, 16)));
+        all.add(compare_with_judge(scene, hard_rays(scene, 3, 17)));
+        all.add(compare_with_judge(scene, rays_from_close_by(scene, 10, 18)));
+        for (const double times : {1e3, 7.5e10, 1e30})
+            all.add(compare_with_judge(scene, rays_from_afar(scene, times, 1, 19)));
+    }
+    report(all);
+    EXPECT_GT(all.hits, 2000u);
+}
+
 TEST(LinearScan, AgreesWithTheJudgeOnRealMeshes) {
     Comparison all;
     for (const Scene& scene : real_meshes(100000)) {

@@ -39,6 +39,30 @@ TEST_P(EveryStructure, AgreesOnHardScenes) {
     EXPECT_GT(all.hits, 20000u);
 }
 
+TEST_P(EveryStructure, AgreesOnFarScenes) {
+    Comparison all;
+    for (const Scene& scene : far_scenes()) {
+        all.add(compare(scene, random_rays(scene, 40, 57)));
+        all.add(compare(scene, hard_rays(scene, 6, 58)));
+        all.add(compare(scene, rays_from_close_by(scene, 40, 59)));
+    }
+    expect_agreement(all);
+    EXPECT_GT(all.hits, 20000u);
+}
+
+TEST_P(EveryStructure, AgreesOnRaysFromFarAway) {
+    std::vector<Scene> scenes = far_scenes();
+    for (const Scene& scene : {icosphere(2), terrain(12), soup(200, 60), flat_square(6, 1), single_triangle()})
+        scenes.push_back(scene);
+    Comparison all;
+    for (const Scene& scene : scenes) {
+        for (const double times : {1e3, 1e6, 7.5e10, 1e15, 1e30})
+            all.add(compare(scene, rays_from_afar(scene, times, 1, 61)));
+    }
+    expect_agreement(all);
+    EXPECT_GT(all.hits, 5000u);
+}
+
 TEST_P(EveryStructure, AgreesOnLargeScenes) {
     Comparison all;
     for (const Scene& scene : large_scenes()) {
