@@ -211,7 +211,8 @@ void stopped_from_another_thread(const rw_scene* scene, const Question& right) {
 }
 
 volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
+// What a handler's plain write is on every processor; said aloud, so that the thread sanitizer knows.
+void interrupt(int) { __atomic_store_n(&interrupted, 1, __ATOMIC_RELAXED); }
 
 int32_t raise_once(void*, double, const char*) {
     std::raise(SIGINT);
