@@ -45,7 +45,8 @@ DenseRegion dense_region(const Primitives& primitives) {
         for (std::size_t i = 0; i < n; ++i) values[i] = middles[i][axis];
         const double median = at_rank(values, n / 2);
         region.center[axis] = median;
-        region.radius = std::max({region.radius, median - at_rank(values, n / 10), at_rank(values, n - 1 - n / 10) - median});
+        region.radius =
+            std::max({region.radius, median - at_rank(values, n / 10), at_rank(values, n - 1 - n / 10) - median});
     }
     return region;
 }

@@ -28,7 +28,8 @@ bool test_kernel(const Primitives& primitives, const ExactRay& ray, const std::u
         return false;
     }
     const BlockRay block_ray(ray);
-    alignas(64) std::byte data[TriangleBlock<double>::bytes_per_triangle * triangle_block_size + triangle_block_padding];
+    alignas(64)
+        std::byte data[TriangleBlock<double>::bytes_per_triangle * triangle_block_size + triangle_block_padding];
     std::uint32_t ids[triangle_block_size];
     for (std::size_t next = 0; next < count;) {
         std::uint32_t n = 0;
@@ -47,8 +48,7 @@ bool test_kernel(const Primitives& primitives, const ExactRay& ray, const std::u
             }
             write_block_triangle(data, n, i, numbers, ids[i]);
         }
-        if (test_triangle_block(block_ray, TriangleBlock<double>{data, n}, farthest, collector))
-            return true;
+        if (test_triangle_block(block_ray, TriangleBlock<double>{data, n}, farthest, collector)) return true;
     }
     return false;
 }

@@ -1,8 +1,8 @@
 // From the triangles that a ray meets to the crossings of surfaces: the rule for all hits.
 #pragma once
 
-#include "ray/exact_ray.h"
 #include "geometry/primitives.h"
+#include "ray/exact_ray.h"
 
 #include <vector>
 

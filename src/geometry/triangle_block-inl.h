@@ -158,7 +158,8 @@ HWY_INLINE std::uint32_t outside_interval(const ExactRay& ray, double distance, 
     const double along = std::fabs(at(ray.direction, ray.major_axis));
     const TriangleVector sign = hn::And(hn::Xor(sum, hn::Set(d, ray.inverse_major)), hn::SignBit(d));
     const TriangleVector z = hn::Xor(weighted, sign);
-    const TriangleVector slack = hn::Add(hn::Mul(area, hn::Set(d, 0x1p-27 * distance)), hn::Set(d, 4.0 * certain * distance));
+    const TriangleVector slack =
+        hn::Add(hn::Mul(area, hn::Set(d, 0x1p-27 * distance)), hn::Set(d, 4.0 * certain * distance));
     const auto before = hn::Lt(hn::Add(z, slack), hn::Mul(area, hn::Set(d, ray.scaled_tmin * along)));
     const auto beyond = hn::Gt(hn::Sub(z, slack), hn::Mul(area, hn::Set(d, ray.scale.from_caller(limit) * along)));
     const auto outside = hn::And(hn::Or(before, beyond), hn::Gt(area, hn::Set(d, 4.0 * certain)));

@@ -30,9 +30,7 @@ struct Interval {
 };
 
 // Finite, so that an end at infinity stays there when an error is taken from it or added.
-inline double finite_distance(double t) {
-    return smaller(std::fabs(t), std::numeric_limits<double>::max());
-}
+inline double finite_distance(double t) { return smaller(std::fabs(t), std::numeric_limits<double>::max()); }
 
 // What the t of a hit at scaled t may be off by, for a ray that nobody moved; see above.
 inline double hit_error(double t, double largest_extent) {

@@ -44,7 +44,7 @@ public:
     double from_caller(double t) const { return is_normal() ? t * length_ : std::ldexp(t, exponent_); }
 
     bool is_normal() const { return length_ != 0.0; }
-    double length() const { return length_; } // 0 where it is not normal
+    double length() const { return length_; }                 // 0 where it is not normal
     double inverse_length() const { return inverse_length_; } // where it is normal
 
 private:

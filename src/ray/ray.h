@@ -16,7 +16,8 @@ struct Ray {
 
     // Quick, and true for every ray that has one.
     bool may_have_nan() const {
-        const double sum = ((origin.x + origin.y) + (origin.z + tmin)) + ((direction.x + direction.y) + (direction.z + tmax));
+        const double sum =
+            ((origin.x + origin.y) + (origin.z + tmin)) + ((direction.x + direction.y) + (direction.z + tmax));
         return std::isnan(sum);
     }
     bool has_nan() const {

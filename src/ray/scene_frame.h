@@ -51,7 +51,8 @@ public:
     static Vec3 choose_center(const Vec3& median, double radius) {
         Vec3 center(0.0);
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::fabs(median[axis]) > 8.0 * radius) center[axis] = static_cast<double>(static_cast<float>(median[axis]));
+            if (std::fabs(median[axis]) > 8.0 * radius)
+                center[axis] = static_cast<double>(static_cast<float>(median[axis]));
         }
         return center;
     }

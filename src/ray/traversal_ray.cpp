@@ -47,8 +47,8 @@ void set_axes(const Vec3& start, double start_error, const Vec3& direction, Trav
         const float inverse =
             std::copysign(1.0f / std::fmax(std::fabs(along), TraversalRay::smallest_direction), along);
         const float offset = static_cast<float>(start[axis]) * inverse;
-        const float slack = TraversalRay::offset_slack * std::fabs(offset) +
-                            static_cast<float>(start_error) * std::fabs(inverse);
+        const float slack =
+            TraversalRay::offset_slack * std::fabs(offset) + static_cast<float>(start_error) * std::fabs(inverse);
         result.inverse[axis] = inverse;
         result.entry_offset[axis] = offset + slack;
         result.exit_offset[axis] = offset - slack;

@@ -220,9 +220,9 @@ private:
             sample_ = request_.sample.empty()
                           ? make_sample_rays(*request_.primitives, request_.workload.kind, request_.view)
                           : request_.sample;
-            sample_.erase(std::remove_if(sample_.begin(), sample_.end(),
-                                         [](const Ray& ray) { return !ray.is_traceable(); }),
-                          sample_.end());
+            sample_.erase(
+                std::remove_if(sample_.begin(), sample_.end(), [](const Ray& ray) { return !ray.is_traceable(); }),
+                sample_.end());
         }
         const bool any = request_.workload.kind == RayKind::shadow;
         std::size_t done = 0;

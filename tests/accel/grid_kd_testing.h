@@ -98,8 +98,8 @@ void compare(World& world, const Structure& structure, const Ray& ray, std::vect
     if (!ray.is_traceable()) return;
     const oracle::PlainScan judge(world.input());
     EXPECT_TRUE(bits_equal(judge.closest(ray, {}), structure.closest(ray, {})))
-        << "closest: " << judge.closest(ray, {}).primitive << " became " << structure.closest(ray, {}).primitive
-        << "; " << describe(ray);
+        << "closest: " << judge.closest(ray, {}).primitive << " became " << structure.closest(ray, {}).primitive << "; "
+        << describe(ray);
     EXPECT_EQ(judge.any(ray, {}), structure.any(ray, {})) << "any: " << describe(ray);
     std::vector<PrimitiveHit> found;
     judge.all(ray, {}, hits);

@@ -67,7 +67,8 @@ std::size_t compare(const std::vector<Case>& cases, std::size_t together) {
         EXPECT_TRUE(std::equal(all.begin(), all.end(), expected.begin(), expected.end(), same_hit)) << "all, ray " << i;
         ClosestCollector closest(ray, query);
         EXPECT_FALSE(test_primitives(*primitives, exact, list.data(), list.size(), closest));
-        EXPECT_TRUE(same_hit(closest.best(), expected.empty() ? PrimitiveHit{} : expected.front())) << "closest, ray " << i;
+        EXPECT_TRUE(same_hit(closest.best(), expected.empty() ? PrimitiveHit{} : expected.front()))
+            << "closest, ray " << i;
         AnyCollector any(ray, query);
         EXPECT_EQ(test_primitives(*primitives, exact, list.data(), list.size(), any), !expected.empty());
         EXPECT_EQ(any.found(), !expected.empty()) << "any, ray " << i;
@@ -98,7 +99,6 @@ private:
     std::mt19937_64 engine_{7};
     std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
-
 
 TEST(PrimitiveTest, AnswersAsForOneTriangle) {
     Maker maker;

@@ -1,8 +1,8 @@
 // The exact weights and normals against fractions: the decision always, the values to a few units in the last place.
 #include "geometry/exact.h"
 
-#include "ray/exact_ray.h"
 #include "oracle/judge.h"
+#include "ray/exact_ray.h"
 
 #include <gtest/gtest.h>
 

@@ -185,8 +185,7 @@ TEST_P(EveryStructure, AgreesWithAnyView) {
                 for (const Vec3& v : scene.vertices) {
                     if (rays.size() < 300 && v != point) rays.push_back({point, 0.0, v - point, infinity});
                 }
-                rays.erase(std::remove_if(rays.begin(), rays.end(),
-                                          [](const Ray& r) { return !r.is_traceable(); }),
+                rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& r) { return !r.is_traceable(); }),
                            rays.end());
                 all.add(compare_with_linear_scan(GetParam(), scene, rays, view));
             }

@@ -49,7 +49,8 @@ TEST(CellRay, MeetsEveryBoxThatItsLinePassesThrough) {
     for (int i = 0; i < 20000; ++i) {
         const double scale = std::ldexp(1.0, static_cast<int>(random.integer() % 80) - 40);
         Box box;
-        for (int p = 0; p < 2; ++p) box.extend(scale * Vec3(random.number(), random.number(), i % 3 == 0 ? 0.0 : random.number()));
+        for (int p = 0; p < 2; ++p)
+            box.extend(scale * Vec3(random.number(), random.number(), i % 3 == 0 ? 0.0 : random.number()));
         const Vec3 inside = box.lower + 0.5 * box.size();
         const double away = i % 7 == 0 ? 1e11 : i % 7 == 1 ? 1e3 : 4.0;
         Vec3 origin = away * scale * random.point();
@@ -89,8 +90,10 @@ TEST(CellRay, FromFarAwayStartsNearTheScene) {
         EXPECT_LE(max_component(magnitudes(ray.start)), 2.0);
         EXPECT_LT(ray.margin(1.0), 1e-2) << "a distance of 1.5e11 is told to 3e-5 at best";
         // t = 1 of the caller's is the target.
-        EXPECT_GE(ray.upper_end(1.0), glm::dot(target - ray.start, ray.direction) / glm::dot(ray.direction, ray.direction));
-        EXPECT_LE(ray.lower_end(1.0), glm::dot(target - ray.start, ray.direction) / glm::dot(ray.direction, ray.direction));
+        EXPECT_GE(ray.upper_end(1.0),
+                  glm::dot(target - ray.start, ray.direction) / glm::dot(ray.direction, ray.direction));
+        EXPECT_LE(ray.lower_end(1.0),
+                  glm::dot(target - ray.start, ray.direction) / glm::dot(ray.direction, ray.direction));
     }
 }
 

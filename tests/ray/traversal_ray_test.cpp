@@ -31,7 +31,8 @@ bool meets(const TraversalRay& ray, const SceneFrame& frame, const Vec3& lower, 
     float entry = ray.first;
     float exit = ray.last;
     for (int axis = 0; axis < 3; ++axis) {
-        const float planes[2] = {round_down(frame.to_frame(lower)[axis] - slack), round_up(frame.to_frame(upper)[axis] + slack)};
+        const float planes[2] = {round_down(frame.to_frame(lower)[axis] - slack),
+                                 round_up(frame.to_frame(upper)[axis] + slack)};
         const std::size_t backwards = ray.octant >> axis & 1u;
         entry = std::fmax(entry, planes[backwards] * ray.inverse[axis] - ray.entry_offset[axis]);
         exit = std::fmin(exit, planes[1 - backwards] * ray.inverse[axis] - ray.exit_offset[axis]);
@@ -62,7 +63,8 @@ TEST(TraversalRay, MeetsTheBoxOfEveryHit) {
                 const double t = away * (1.0 + random.number());
                 // An origin from which the line passes the target exactly enough: within rounding of the origin's coordinates.
                 const Ray ray{target - t * direction, -infinity, direction, infinity};
-                const double passes = 0x1p-51 * (max_component(magnitudes(ray.origin)) + max_component(magnitudes(target)));
+                const double passes =
+                    0x1p-51 * (max_component(magnitudes(ray.origin)) + max_component(magnitudes(target)));
                 const Traced setup(ray, frame);
                 ASSERT_EQ(setup.status, RaySetup::ready);
                 EXPECT_TRUE(meets(setup.ray, frame, target - Vec3(passes), target + Vec3(passes)))
