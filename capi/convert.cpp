@@ -160,21 +160,24 @@ HitArrays read_hits(const rw_hits* source, std::uint64_t count) {
     return arrays;
 }
 
-std::vector<std::uint32_t> read_skips(const rw_ray_options* source, const Primitives& primitives) {
-    const rw_ray_options options = read_optional_struct(source, "options");
+std::uint32_t number_of(const rw_primitive_id& id, const Primitives& primitives, const char* where,
+                        std::uint64_t index) {
+    if (id.instance != RW_INVALID_ID) {
+        throw Error(Status::ERROR_INDEX_OUT_OF_RANGE, SkipEntry::place(where, index) + ": instance " +
+                                                          std::to_string(id.instance) +
+                                                          " is out of range, the scene has no instances");
+    }
+    return SkipEntry{id.geometry, id.primitive}.number(primitives, where, index);
+}
+
+std::vector<std::uint32_t> read_skips(const rw_ray_options& source, const Primitives& primitives) {
+    const rw_ray_options options = read_struct(&source, "options");
     if (options.skip_count > 0 && options.skip == nullptr) throw null_argument("options.skip");
     std::vector<std::uint32_t> numbers;
     numbers.reserve(options.skip_count);
     for (std::uint32_t i = 0; i < options.skip_count; ++i) {
         const rw_primitive_id& id = options.skip[i];
-        const SkipEntry entry{id.geometry, id.primitive};
-        if (entry.stands_for_nothing()) continue;
-        if (id.instance != RW_INVALID_ID) {
-            throw Error(Status::ERROR_INDEX_OUT_OF_RANGE, "options.skip[" + std::to_string(i) + "]: instance " +
-                                                              std::to_string(id.instance) +
-                                                              " is out of range, the scene has no instances");
-        }
-        numbers.push_back(entry.number(primitives, "options.skip", i));
+        if (id.primitive != RW_INVALID_ID) numbers.push_back(number_of(id, primitives, "options.skip", i));
     }
     return numbers;
 }
@@ -219,6 +222,12 @@ Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void
 Progress::Callback read_progress(rw_progress progress, void* user) {
     if (progress == nullptr) return {};
     return [progress, user](double fraction, const char* stage) { return progress(user, fraction, stage) != 0; };
+}
+
+BatchWatch read_watch(const rw_query_options& options) {
+    if (reinterpret_cast<std::uintptr_t>(options.cancel) % alignof(std::int32_t) != 0)
+        throw bad_argument("options.cancel: it is not aligned to 4 bytes, as an int32_t that threads share has to be");
+    return {read_progress(options.progress, options.progress_user), options.cancel};
 }
 
 bool is_json(std::int32_t format) {

@@ -17,13 +17,9 @@
 
 namespace raywise::capi {
 
-// The size a struct had in the version before, for those that have grown since: what an older program passes.
+// The size a struct had in the version before, what an older program passes: to be specialised for those that grow.
 template <class T>
 inline constexpr std::size_t previous_size = sizeof(T);
-template <>
-inline constexpr std::size_t previous_size<rw_rays> = offsetof(rw_rays, skip_offsets); // 0.1
-template <>
-inline constexpr std::size_t previous_size<rw_scene_statistics> = offsetof(rw_scene_statistics, refits); // 0.1
 
 // The struct_size of a struct that begins with one. A larger one, of a newer program, is fine as long as what this library does
 // not know is zero.
@@ -118,17 +114,34 @@ inline const Ray& read_ray(const rw_ray* source) {
                   offsetof(Ray, tmax) == offsetof(rw_ray, tmax));
     return reinterpret_cast<const Ray&>(required(source, "ray"));
 }
+inline Ray read_ray(const rw_ray_f32* source) {
+    const rw_ray_f32& ray = required(source, "ray");
+    return {{ray.origin[0], ray.origin[1], ray.origin[2]},
+            ray.tmin,
+            {ray.direction[0], ray.direction[1], ray.direction[2]},
+            ray.tmax};
+}
 // The numbers of what the ray skips, in the caller's order.
-std::vector<std::uint32_t> read_skips(const rw_ray_options* options, const Primitives& primitives);
+std::vector<std::uint32_t> read_skips(const rw_ray_options& options, const Primitives& primitives);
+// The number of the primitive with those ids; errors name where[index].
+std::uint32_t number_of(const rw_primitive_id& id, const Primitives& primitives, const char* where,
+                        std::uint64_t index = SkipEntry::no_index);
 inline void write_hit(const Hit& hit, rw_hit& out) {
     out.t = hit.t;
     out.u = hit.u;
     out.v = hit.v;
-    for (int axis = 0; axis < 3; ++axis) out.normal[axis] = hit.normal[axis];
     out.instance = hit.instance;
     out.geometry = hit.geometry;
     out.primitive = hit.primitive;
     out.reserved = 0;
+}
+inline void write_hit(const Hit& hit, rw_hit_f32& out) {
+    out.t = static_cast<float>(hit.t);
+    out.u = static_cast<float>(hit.u);
+    out.v = static_cast<float>(hit.v);
+    out.instance = hit.instance;
+    out.geometry = hit.geometry;
+    out.primitive = hit.primitive;
 }
 
 Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name);
@@ -136,6 +149,7 @@ std::optional<Structure> read_structure(const char* name);
 
 Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void* user);
 Progress::Callback read_progress(rw_progress progress, void* user);
+BatchWatch read_watch(const rw_query_options& options);
 
 // RW_FORMAT_JSON rather than RW_FORMAT_TEXT; anything else is an error.
 bool is_json(std::int32_t format);

@@ -6,7 +6,6 @@
 #include "model/profile.h"
 #include "raywise/raywise.h"
 #include "scene/scene.h"
-#include "scene/view.h"
 
 #include <atomic>
 #include <cstdint>
@@ -56,8 +55,5 @@ struct rw_mesh : raywise::capi::Handle<const raywise::LoadedMesh> {
     using Handle::Handle;
 };
 struct rw_scene : raywise::capi::Handle<raywise::Scene> {
-    using Handle::Handle;
-};
-struct rw_view : raywise::capi::Handle<const raywise::View> {
     using Handle::Handle;
 };

@@ -7,6 +7,16 @@ using namespace raywise::capi;
 
 namespace {
 
+// The build is watched as the batch is.
+Progress::Callback read_build_watch(const rw_query_options& options) {
+    BatchWatch watch = read_watch(options);
+    if (watch.cancel == nullptr) return std::move(watch.progress);
+    return [watch = std::move(watch)](double fraction, const char* stage) {
+        return __atomic_load_n(watch.cancel, __ATOMIC_RELAXED) != 0 ||
+               (watch.progress && watch.progress(fraction, stage));
+    };
+}
+
 // A committed scene over the caller's arrays, planned for exactly these rays.
 Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_rays* rays,
                  const rw_once_options& options, const rw_query_options& query) {
@@ -20,7 +30,7 @@ Scene make_scene(const rw_triangles* meshes, std::uint32_t mesh_count, const rw_
     scene.set_expected(workload, {});
     scene.set_memory_limit(options.memory_limit);
     scene.set_structure(read_structure(options.structure));
-    Progress progress;
+    Progress progress(read_build_watch(query));
     scene.commit(read_parallel(query.threads, query.parallel_for, query.parallel_user), progress);
     return scene;
 }

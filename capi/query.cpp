@@ -1,6 +1,5 @@
 #include "query.h"
 
-#include "scene/explain.h"
 #include "shared_memory.h"
 
 namespace raywise::capi {
@@ -20,6 +19,7 @@ RayArrays read_checked_rays(const rw_rays* rays, const Tracer& tracer) {
 BatchMemory memory_of(const RayArrays& rays, const rw_query_options& options) {
     BatchMemory memory;
     memory.reads(rays);
+    memory.reads("options.cancel", options.cancel);
     memory.writes("options.invalid_rays", options.invalid_rays, 1);
     return memory;
 }
@@ -28,38 +28,41 @@ void report_invalid(const rw_query_options& options, std::uint64_t invalid) {
     if (options.invalid_rays != nullptr) *options.invalid_rays = invalid;
 }
 
+} // namespace
+
 Error over_capacity(std::uint64_t needed, std::uint64_t capacity) {
     return {Status::ERROR_CAPACITY,
             "hits: there are " + std::to_string(needed) + ", capacity is " + std::to_string(capacity)};
 }
 
-} // namespace
-
-void intersect_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hit) {
-    const Ray& r = read_ray(ray);
-    rw_hit& out = required(hit, "hit");
+Hit closest_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options) {
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
-    write_hit(tracer.closest(r, sorted(skips)), out);
+    return tracer.closest(ray, {sorted(skips)});
 }
 
-void occluded_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, std::int32_t* answer) {
-    const Ray& r = read_ray(ray);
-    std::int32_t& out = required(answer, "occluded");
+bool any_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options) {
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
-    out = tracer.any(r, sorted(skips)) ? 1 : 0;
+    return tracer.any(ray, {sorted(skips)});
 }
 
-void intersect_all_with(const Tracer& tracer, const rw_ray* ray, const rw_ray_options* options, rw_hit* hits,
-                        std::uint64_t capacity, std::uint64_t* needed) {
-    const Ray& r = read_ray(ray);
-    std::uint64_t& count = required(needed, "needed");
-    if (hits == nullptr && capacity > 0) throw null_argument("hits");
-    std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
+std::vector<Hit> all_with(const Tracer& tracer, const Ray& ray, const rw_ray_options* options) {
+    std::vector<std::uint32_t> skips;
+    if (options != nullptr) skips = read_skips(*options, tracer.primitives());
     std::vector<Hit> found;
-    tracer.all(r, found, sorted(skips));
-    count = found.size();
-    for (std::size_t i = 0; i < std::min<std::uint64_t>(capacity, found.size()); ++i) write_hit(found[i], hits[i]);
-    if (hits != nullptr && found.size() > capacity) throw over_capacity(found.size(), capacity);
+    tracer.all(ray, found, {sorted(skips)});
+    return found;
+}
+
+Vec3 checked_normal(const Tracer& tracer, std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) {
+    if (primitive == invalid_id) throw Error(Status::ERROR_INVALID_ARGUMENT, "hit: it is a miss, which has no normal");
+    const Primitives& primitives = tracer.primitives();
+    const std::uint32_t number = number_of({instance, geometry, primitive}, primitives, "hit");
+    if (!primitives.is_hittable(number)) {
+        throw Error(Status::ERROR_INVALID_ARGUMENT, "hit: primitive " + std::to_string(primitive) + " of geometry " +
+                                                        std::to_string(geometry) +
+                                                        " has no area or is not valid: no ray hits it");
+    }
+    return unit_normal(primitives.corners(number));
 }
 
 void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) {
@@ -69,7 +72,7 @@ void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* h
     BatchMemory memory = memory_of(in, o);
     memory.writes(out, in.count);
     memory.refuse_shared();
-    report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o)));
+    report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o), read_watch(o)));
 }
 
 void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers,
@@ -81,7 +84,7 @@ void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* 
     BatchMemory memory = memory_of(in, o);
     memory.writes("occluded", out, in.count, 1);
     memory.refuse_shared();
-    report_invalid(o, raywise::occluded_batch(tracer, in, out, read_query_parallel(o)));
+    report_invalid(o, raywise::occluded_batch(tracer, in, out, read_query_parallel(o), read_watch(o)));
 }
 
 void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits,
@@ -97,42 +100,10 @@ void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_
     memory.writes(out, capacity);
     memory.refuse_shared();
     std::uint64_t count = 0;
-    report_invalid(o, raywise::intersect_all_batch(tracer, in, offsets, out, capacity, count, read_query_parallel(o)));
+    report_invalid(o, raywise::intersect_all_batch(tracer, in, offsets, out, capacity, count, read_query_parallel(o),
+                                                   read_watch(o)));
     if (needed != nullptr) *needed = count;
     if (hits != nullptr && count > capacity) throw over_capacity(count, capacity);
-}
-
-void candidate_count(std::uint32_t* count) { required(count, "count") = static_cast<std::uint32_t>(structure_count); }
-
-void get_candidate(const Plan& plan, const Tracer& tracer, std::uint32_t index, rw_candidate* candidate) {
-    if (index >= structure_count) {
-        throw Error(Status::ERROR_INVALID_ARGUMENT,
-                    "index: " + std::to_string(index) + " is not below " + std::to_string(structure_count));
-    }
-    const CandidateReport report = report_candidate(plan, tracer, static_cast<Structure>(index));
-    const PlannedCandidate& figures = report.figures;
-    rw_candidate facts{};
-    facts.flags = (report.chosen ? RW_CANDIDATE_CHOSEN : 0u) | (report.forced ? RW_CANDIDATE_FORCED : 0u) |
-                  (figures.over_limit ? RW_CANDIDATE_OVER_LIMIT : 0u) |
-                  (figures.measured ? RW_CANDIDATE_MEASURED : 0u) |
-                  (figures.applicable ? 0u : RW_CANDIDATE_NOT_APPLICABLE);
-    facts.structure = name_of(report.structure);
-    facts.predicted_build_ns = figures.predicted.build_ns;
-    facts.predicted_ray_ns = figures.predicted.ray_ns;
-    facts.predicted_error = figures.predicted.error;
-    facts.predicted_total_ns = report.predicted_total_ns;
-    facts.break_even_rays = report.break_even_rays;
-    facts.predicted_bytes = static_cast<std::uint64_t>(figures.predicted.bytes);
-    facts.actual_bytes = figures.actual_bytes;
-    facts.actual_build_ns = figures.actual_build_ns;
-    facts.actual_ray_ns = figures.actual_ray_ns;
-    write_struct(candidate, "candidate", facts);
-}
-
-std::int32_t explain(const Plan& plan, const Tracer& tracer, const Profile& profile, std::int32_t format, char* buffer,
-                     std::uint64_t capacity, std::uint64_t* needed) {
-    return write_text(is_json(format) ? explain_json(plan, tracer, profile) : explain_text(plan, tracer, profile),
-                      buffer, capacity, needed);
 }
 
 } // namespace raywise::capi

@@ -1,5 +1,5 @@
 // What a committed scene is, and the structures there are.
-#include "accel/uniform_grid.h"
+#include "accel/grid/uniform_grid.h"
 #include "base/shared_bytes.h"
 #include "convert.h"
 #include "guard.h"

@@ -8,7 +8,7 @@
 namespace raywise::capi {
 namespace {
 
-std::uintptr_t address_of(const void* memory) { return reinterpret_cast<std::uintptr_t>(memory); }
+std::uintptr_t address_of(const volatile void* memory) { return reinterpret_cast<std::uintptr_t>(memory); }
 
 } // namespace
 
@@ -36,6 +36,11 @@ void BatchMemory::reads(const RayArrays& rays) {
     read("rays.skip_offsets", skip.offsets, rays.count + 1, 1);
     read("rays.skip_geometry", skip.geometry, entries, 1);
     read("rays.skip_primitive", skip.primitive, entries, 1);
+}
+
+void BatchMemory::reads(const char* name, const volatile std::int32_t* number) {
+    if (number == nullptr) return;
+    add({name, {address_of(number), 1, sizeof *number, 1, sizeof *number, sizeof *number}, false});
 }
 
 void BatchMemory::writes(const char* name, const OutputArray& output, std::uint64_t count, int components) {

@@ -14,6 +14,7 @@ class BatchMemory {
 public:
     // The skip lists have to be checked before: their offsets say how many entries there are.
     void reads(const RayArrays& rays);
+    void reads(const char* name, const volatile std::int32_t* number); // null: none
     void writes(const HitArrays& hits, std::uint64_t count);
     void writes(const char* name, const OutputArray& output, std::uint64_t count, int components);
     void writes(const char* name, const std::uint64_t* numbers, std::uint64_t count); // null: none
@@ -30,8 +31,8 @@ private:
     void read(const char* name, const StridedArray& array, std::uint64_t count, int components);
     void add(const Array& array);
 
-    // Six outputs of hits, offsets, needed and invalid_rays; seven arrays of rays.
-    std::array<Array, 16> arrays_;
+    // Six outputs of hits, offsets, needed and invalid_rays; seven arrays of rays; cancel.
+    std::array<Array, 17> arrays_;
     std::size_t count_ = 0;
 };
 

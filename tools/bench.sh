@@ -27,8 +27,13 @@ common=(--commit "$(git describe --always --dirty 2>/dev/null || echo unknown)")
 # embreex carries a whole Embree 4 in its wheel.
 embree4() { compgen -G "$BENCH_VENV/lib/python*/site-packages/embreex.libs/libembree4*.so*" | head -n 1 || true; }
 
+# Built where there is AVX2 to force.
+readonly AVX2=$BUILD/tests/bench/libraywise-avx2.so
+
 raywise_bench() {
-    "$BUILD/tests/bench/raywise_bench" --library "$BUILD/capi/libraywise.so.1" --embree4 "$(embree4)" \
+    local avx2=
+    [[ ! -e $AVX2 ]] || avx2=$AVX2
+    "$BUILD/tests/bench/raywise_bench" --library "$BUILD/capi/libraywise.so.1" --library-avx2 "$avx2" --embree4 "$(embree4)" \
         --meshes "$DATA" --spd "$DATA/../spd" --dragon "$DRAGON" "${common[@]}" "${flags[@]}" "$@"
 }
 
@@ -57,8 +62,8 @@ against_crates() {
 triangle_test() {
     step "What the exact triangle test costs"
     "$BUILD/tests/bench/bench_triangle_test" exact="$BUILD/capi/libraywise.so.1" \
-        plain="$BUILD/tests/bench/libraywise-plain.so" plain-float="$BUILD/tests/bench/libraywise-plain-float.so" \
-        --data "$DATA" --json "$REPORTS/triangle-test.json" "${common[@]}"
+        plain="$BUILD/tests/bench/libraywise-plain.so" --data "$DATA" --json "$REPORTS/triangle-test.json" \
+        "${common[@]}"
     note "written to build/reports/triangle-test.json"
 }
 
@@ -69,7 +74,7 @@ fi
 step "Building the benchmarks"
 cmake --preset bench
 if [[ $goal == bench-rust || -n ${BENCH_FLAGS:-} ]]; then
-    cmake --build --preset bench --target raywise_bench raywise
+    cmake --build --preset bench --target raywise_bench
 else
     cmake --build --preset bench
 fi

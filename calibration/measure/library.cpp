@@ -87,7 +87,8 @@ void Built::ask(const RaySelection& selection, bool any_hit, std::uint32_t threa
     const rw_rays rays = rays_of(selection);
     if (any_hit) {
         occluded_.resize(selection.count);
-        check(occluded(rays, output_to(occluded_.data(), RW_UINT8), options), "rw_scene_occluded_batch");
+        const rw_output output = output_to(occluded_.data(), RW_UINT8);
+        check(rw_scene_occluded_batch(scene_.get(), &rays, &output, &options), "rw_scene_occluded_batch");
         return;
     }
     t_.resize(selection.count);
@@ -95,7 +96,7 @@ void Built::ask(const RaySelection& selection, bool any_hit, std::uint32_t threa
     rw_hits hits = sized<rw_hits>();
     hits.t = output_to(t_.data(), RW_FLOAT32);
     hits.primitive = output_to(primitive_.data(), RW_UINT32);
-    check(intersect(rays, hits, options), "rw_scene_intersect_batch");
+    check(rw_scene_intersect_batch(scene_.get(), &rays, &hits, &options), "rw_scene_intersect_batch");
 }
 
 std::vector<workloads::SurfacePoint> Built::closest(const workloads::Rays& rays, std::uint32_t threads) {
@@ -105,7 +106,8 @@ std::vector<workloads::SurfacePoint> Built::closest(const workloads::Rays& rays,
     rw_hits hits = sized<rw_hits>();
     hits.t = output_to(t.data(), RW_FLOAT64);
     hits.normal = output_to(normal.data(), RW_FLOAT64);
-    check(intersect(rays_of({rays, rays.size()}), hits, options), "rw_scene_intersect_batch");
+    const rw_rays all = rays_of({rays, rays.size()});
+    check(rw_scene_intersect_batch(scene_.get(), &all, &hits, &options), "rw_scene_intersect_batch");
     std::vector<workloads::SurfacePoint> points;
     for (std::size_t i = 0; i < t.size(); ++i) {
         points.push_back({t[i], Vec3(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2])});
@@ -133,14 +135,6 @@ BuiltScene::BuiltScene(const workloads::Mesh& mesh, const char* structure, const
         static_cast<double>(statistics.triangle_count - statistics.degenerate_triangles - statistics.invalid_triangles);
 }
 
-std::int32_t BuiltScene::intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const {
-    return rw_scene_intersect_batch(scene_.get(), &rays, &hits, &options);
-}
-
-std::int32_t BuiltScene::occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const {
-    return rw_scene_occluded_batch(scene_.get(), &rays, &output, &options);
-}
-
 BuiltView::BuiltView(const BuiltScene& scene, const ViewPlace& place, const char* structure, std::uint32_t threads) {
     rw_view_options options = sized<rw_view_options>();
     options.kind = RW_VIEW_POINT;
@@ -154,28 +148,20 @@ BuiltView::BuiltView(const BuiltScene& scene, const ViewPlace& place, const char
     options.structure = structure;
     rw_commit_options commit = sized<rw_commit_options>();
     commit.threads = threads;
-    rw_view* view = nullptr;
-    check(rw_view_create(scene.handle(), &options, &commit, &view), "rw_view_create");
-    view_.reset(view);
+    rw_scene* view = nullptr;
+    check(rw_scene_view(scene.handle(), &options, &commit, &view), "rw_scene_view");
+    scene_.reset(view);
 
     triangles_ = scene.triangles();
     std::uint32_t count = 0;
-    check(rw_view_candidate_count(view, &count), "rw_view_candidate_count");
+    check(rw_scene_candidate_count(view, &count), "rw_scene_candidate_count");
     for (std::uint32_t i = 0; i < count; ++i) {
         rw_candidate candidate = sized<rw_candidate>();
-        check(rw_view_get_candidate(view, i, &candidate), "rw_view_get_candidate");
+        check(rw_scene_get_candidate(view, i, &candidate), "rw_scene_get_candidate");
         if (std::strcmp(candidate.structure, structure) != 0) continue;
         build_ns_ = candidate.actual_build_ns;
         bytes_ = static_cast<double>(candidate.actual_bytes);
     }
-}
-
-std::int32_t BuiltView::intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const {
-    return rw_view_intersect_batch(view_.get(), &rays, &hits, &options);
-}
-
-std::int32_t BuiltView::occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const {
-    return rw_view_occluded_batch(view_.get(), &rays, &output, &options);
 }
 
 } // namespace raywise::calibration

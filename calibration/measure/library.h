@@ -24,7 +24,6 @@ void check(std::int32_t status, const char* function);
 
 struct Release {
     void operator()(rw_scene* scene) const { rw_scene_release(scene); }
-    void operator()(rw_view* view) const { rw_view_release(view); }
     void operator()(rw_profile* profile) const { rw_profile_release(profile); }
     void operator()(rw_mesh* mesh) const { rw_mesh_release(mesh); }
 };
@@ -47,7 +46,6 @@ struct RaySelection {
 // Something built that can be asked: a scene, or a view of one.
 class Built {
 public:
-    virtual ~Built() = default;
     double build_ns() const { return build_ns_; } // as the library timed it, in wall time
     double bytes() const { return bytes_; }
     double triangles() const { return triangles_; } // that can be hit
@@ -57,9 +55,8 @@ public:
     std::vector<workloads::SurfacePoint> closest(const workloads::Rays& rays, std::uint32_t threads);
 
 protected:
-    virtual std::int32_t intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const = 0;
-    virtual std::int32_t occluded(const rw_rays& rays, const rw_output& output,
-                                  const rw_query_options& options) const = 0;
+    Built() = default;
+    Handle<rw_scene> scene_;
     double build_ns_ = 0.0;
     double bytes_ = 0.0;
     double triangles_ = 0.0;
@@ -75,11 +72,6 @@ public:
     // The mesh is used in place and has to outlive the scene.
     BuiltScene(const workloads::Mesh& mesh, const char* structure, const rw_profile* profile, std::uint32_t threads);
     const rw_scene* handle() const { return scene_.get(); }
-
-private:
-    std::int32_t intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const override;
-    std::int32_t occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const override;
-    Handle<rw_scene> scene_;
 };
 
 struct ViewPlace {
@@ -92,11 +84,6 @@ struct ViewPlace {
 class BuiltView : public Built {
 public:
     BuiltView(const BuiltScene& scene, const ViewPlace& place, const char* structure, std::uint32_t threads);
-
-private:
-    std::int32_t intersect(const rw_rays& rays, const rw_hits& hits, const rw_query_options& options) const override;
-    std::int32_t occluded(const rw_rays& rays, const rw_output& output, const rw_query_options& options) const override;
-    Handle<rw_view> view_;
 };
 
 } // namespace raywise::calibration

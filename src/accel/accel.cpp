@@ -2,12 +2,12 @@
 
 namespace raywise {
 
-void Accel::closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch&) const {
-    for (std::size_t i = 0; i < rays.count; ++i) hits.put(i, closest(rays[i]));
+void Accel::closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch&) const {
+    for (std::size_t i = 0; i < rays.count; ++i) hits[i] = closest(rays.rays[i], rays.query(i));
 }
 
-void Accel::any_many(const UnpreparedRays& rays, bool* found, Scratch&) const {
-    for (std::size_t i = 0; i < rays.count; ++i) found[i] = any(rays[i]);
+void Accel::any_many(const RayPacket& rays, bool* found, Scratch&) const {
+    for (std::size_t i = 0; i < rays.count; ++i) found[i] = any(rays.rays[i], rays.query(i));
 }
 
 } // namespace raywise

@@ -3,10 +3,11 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/ray.h"
 #include "base/scratch.h"
 #include "base/structure.h"
 #include "geometry/primitives.h"
+#include "ray/query.h"
+#include "ray/ray.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,32 +48,13 @@ struct BuildInput {
     std::uint64_t memory_limit = 0; // bytes, 0: none; for structures that can do with less
 };
 
-// A hit with the corners of what was hit, which whoever found it had at hand. They are set only where there is a hit.
-struct SurfaceHit : PrimitiveHit {
-    Corners corners;
-};
-
-// Room for the hits of many rays.
-struct SurfaceHits {
-    PrimitiveHit* hits;
-    Corners* corners; // set only where there is a hit
-
-    void put(std::size_t i, const SurfaceHit& hit) const {
-        hits[i] = hit;
-        if (hit.is_hit()) corners[i] = hit.corners;
-    }
-};
-
-// Many rays as the caller gave them, each with what it skips.
-struct UnpreparedRays {
+// Many rays, each with what narrows it down.
+struct RayPacket {
     const Ray* rays;
-    const SkipList* skips; // null: none skips anything
+    const Query* queries; // null: nothing narrows any of them down
     std::size_t count;
-    const Box& bounds; // of the whole scene
 
-    UnpreparedRay operator[](std::size_t i) const {
-        return {rays[i], bounds, skips != nullptr ? skips[i] : SkipList{}};
-    }
+    Query query(std::size_t i) const { return queries != nullptr ? queries[i] : Query{}; }
 };
 
 class Accel;
@@ -84,34 +66,28 @@ struct Refitted {
     double cost = 1.0;                  // what a ray is taken to cost, over the same when the structure was built
 };
 
-// A built structure. Immutable: any number of threads may ask at the same time.
+// A built structure, and the one door to it: scenes, views, batches, probes and calibration all ask here. Immutable: any number of threads
+// may ask at the same time.
 //
-// The answers are those of the linear scan, bit for bit. A structure only decides which primitives to test, with
-// Primitives::test, and it may leave out a primitive only when no hit on it could change the answer. PreparedRay::margin is the
-// slack to leave in every comparison of distances.
+// The answers are those of the linear scan, bit for bit: t in the caller's unit, and a ray that is not traceable hits nothing. A structure
+// only decides which primitives to test (geometry/triangle_block-inl.h), and it may leave out a primitive only when no hit on it could
+// change the answer.
 class Accel {
 public:
     virtual ~Accel() = default;
 
     // The first hit in the order of PrimitiveHit, or no hit.
-    virtual SurfaceHit closest(const PreparedRay& ray) const = 0;
-    virtual bool any(const PreparedRay& ray) const = 0;
-    // The same for a ray that nobody has prepared; t is scaled in the answer too. One that is not traceable hits nothing.
-    virtual SurfaceHit closest(const UnpreparedRay& ray) const {
-        return PreparedRay::is_traceable(ray.ray) ? closest(ray.prepare()) : SurfaceHit{};
-    }
-    virtual bool any(const UnpreparedRay& ray) const {
-        return PreparedRay::is_traceable(ray.ray) && any(ray.prepare());
-    }
+    virtual PrimitiveHit closest(const Ray& ray, const Query& query) const = 0;
+    virtual bool any(const Ray& ray, const Query& query) const = 0;
     // Every hit once, appended in any order.
-    virtual void all(const PreparedRay& ray, std::vector<PrimitiveHit>& hits) const = 0;
+    virtual void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const = 0;
 
     // How many rays the next two would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
     // that follow near ones.
     virtual std::size_t rays_at_a_time() const { return 1; }
-    // The same for many rays at a time: answer i is that of rays[i]. scratch: for whatever memory it takes; not reset here.
-    virtual void closest_many(const UnpreparedRays& rays, const SurfaceHits& hits, Scratch& scratch) const;
-    virtual void any_many(const UnpreparedRays& rays, bool* found, Scratch& scratch) const;
+    // The same for many rays at a time: answer i is that of ray i. scratch: for whatever memory it takes; not reset here.
+    virtual void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const;
+    virtual void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const;
 
     // Memory of the structure.
     virtual std::size_t bytes() const = 0;

@@ -1,11 +1,11 @@
 // From a structure's name to its class: the one place that includes them all.
 #include "accel/accel.h"
-#include "accel/bvh.h"
-#include "accel/bvh_quality.h"
-#include "accel/kd_tree.h"
-#include "accel/linear_scan.h"
-#include "accel/projected_bvh.h"
-#include "accel/uniform_grid.h"
+#include "accel/bvh/bvh.h"
+#include "accel/bvh/bvh_quality.h"
+#include "accel/grid/uniform_grid.h"
+#include "accel/kdtree/kd_tree.h"
+#include "accel/projected/projected_bvh.h"
+#include "accel/scan/linear_scan.h"
 
 namespace raywise {
 

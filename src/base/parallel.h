@@ -27,6 +27,7 @@ public:
     Parallel without_own_threads() const { return host_ ? *this : Parallel(1); }
 
     unsigned threads() const { return threads_; }
+    bool is_host() const { return static_cast<bool>(host_); } // without it, the thread that calls for_each takes part
 
     // Threads this process may use: as many as processors its affinity names.
     static unsigned usable_threads();

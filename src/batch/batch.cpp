@@ -36,6 +36,8 @@ struct RayBlock {
     Ray* rays = nullptr;
     SkipBlock skips;
     Scratch scratch; // for whatever the block takes
+    BlockPace pace;
+    std::vector<double> ns_per_ray; // of each of the thread's blocks in a window on trial
 
     std::size_t size() const { return elements.count(); }
 };
@@ -45,16 +47,18 @@ bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() >
 // A batch, a window of it after the other, cut into blocks.
 class BlockLoop {
 public:
-    BlockLoop(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, RayOrdering ordering)
+    BlockLoop(const Tracer& tracer, const RayArrays& rays, const Parallel& parallel, const BatchWatch& watch,
+              RayOrdering ordering)
         : tracer_(tracer),
           rays_(rays),
           parallel_(parallel),
           ordering_(ordering),
-          window_(rays, tracer.primitives().bounds(), parallel),
+          progress_(watch, rays.count, parallel),
+          window_(rays, tracer.primitives(), parallel, progress_),
           blocks_(parallel.threads()) {}
 
     // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, and
-    // notes the time.
+    // notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
     template <class Body, class AtEnd>
     std::uint64_t run(const Body& body, const AtEnd& at_end) {
         const Clock::time_point start = Clock::now();
@@ -64,16 +68,17 @@ public:
             if (ordering_ == RayOrdering::where_it_pays && count >= fewest_to_order()) {
                 const std::uint64_t on_trial = std::min(count / 16, most_on_trial);
                 window_.move_to(first, on_trial, false);
-                run_window(body);
+                run_window(body, true);
                 in_order = ns_per_ray() >= shortest_in_order;
                 first += on_trial;
                 count -= on_trial;
             }
             window_.move_to(first, count, in_order);
-            run_window(body);
+            run_window(body, false);
             at_end();
             first += count;
         }
+        progress_.finish();
         tracer_.usage().rays.fetch_add(rays_.count, std::memory_order_relaxed);
         tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns_since(start)), std::memory_order_relaxed);
         return window_.invalid();
@@ -106,7 +111,7 @@ private:
     // Each thread takes the next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to
     // the next.
     template <class Body>
-    void run_window(const Body& body) {
+    void run_window(const Body& body, bool is_on_trial) {
         const Elements& elements = window_.elements();
         const std::uint64_t count = elements.count();
         const std::uint64_t most = takes_many(tracer_) ? tracer_.accel().rays_at_a_time() : single_rays_per_block;
@@ -114,23 +119,37 @@ private:
         const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
-        ns_per_ray_.resize(blocks);
+        for (RayBlock& block : blocks_) {
+            block.ns_per_ray.clear();
+            if (is_on_trial) block.ns_per_ray.reserve(blocks); // here, where a refusal leaves the outputs alone
+        }
         const std::uint64_t threads = std::clamp<std::uint64_t>(count / fewest_rays, 1, blocks_.size());
         parallel_.for_each(std::min(threads, blocks), [&](std::uint64_t thread) {
-            for (std::uint64_t i = next.fetch_add(1); i < blocks; i = next.fetch_add(1)) {
-                const std::uint64_t n = std::min(size, count - i * size);
+            RayBlock& block = blocks_[thread];
+            for (;;) {
+                progress_.poll();
+                const std::uint64_t taken = progress_.is_watched() ? block.pace.rays(size) : size;
+                const std::uint64_t first = next.fetch_add(taken);
+                if (first >= count) break;
+                const std::uint64_t n = std::min(taken, count - first);
                 const Clock::time_point start = Clock::now();
-                answer(blocks_[thread], elements.part(i * size, n), body);
-                ns_per_ray_[i] = ns_since(start) / static_cast<double>(n);
+                answer(block, elements.part(first, n), body);
+                const double ns = ns_since(start);
+                if (is_on_trial && block.ns_per_ray.size() < blocks)
+                    block.ns_per_ray.push_back(ns / static_cast<double>(n));
+                block.pace.took(n, ns);
+                progress_.add(n);
             }
         });
     }
 
-    // Of the last window, on one thread: what a quarter of the blocks stays below. The first of them find nothing in the caches, and any
+    // Of the last window on trial, on one thread: what a quarter of the blocks stays below. The first of them find nothing in the caches, and any
     // may have been interrupted.
-    double ns_per_ray() {
-        const auto quarter = ns_per_ray_.begin() + static_cast<std::ptrdiff_t>(ns_per_ray_.size() / 4);
-        std::nth_element(ns_per_ray_.begin(), quarter, ns_per_ray_.end());
+    double ns_per_ray() const {
+        std::vector<double> all;
+        for (const RayBlock& block : blocks_) all.insert(all.end(), block.ns_per_ray.begin(), block.ns_per_ray.end());
+        const auto quarter = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 4);
+        std::nth_element(all.begin(), quarter, all.end());
         return *quarter;
     }
 
@@ -138,9 +157,9 @@ private:
     const RayArrays& rays_;
     const Parallel& parallel_;
     const RayOrdering ordering_;
+    BatchProgress progress_;
     RayWindow window_;
-    std::vector<RayBlock> blocks_;   // of each thread
-    std::vector<double> ns_per_ray_; // of each block of the last window
+    std::vector<RayBlock> blocks_; // of each thread
 };
 
 // A structure that takes many rays at a time does not look for those with a NaN.
@@ -150,7 +169,7 @@ std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
 }
 
 // Hits to `window`, which writes them to `hits`.
-void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& found, RayWindow& window,
+void write_hits(const Tracer& tracer, const RayBlock& block, const PrimitiveHit* found, RayWindow& window,
                 const HitArrays& hits) {
     constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
     Hit as_asked[together];
@@ -158,7 +177,7 @@ void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& 
         const std::size_t n = std::min(together, block.size() - begin);
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = begin + k;
-            as_asked[k] = tracer.to_caller(block.rays[i], found.hits[i], found.corners[i]);
+            as_asked[k] = tracer.to_caller(found[i]);
         }
         window.write(block.elements.part(begin, n), as_asked, hits);
     }
@@ -167,18 +186,17 @@ void write_hits(const Tracer& tracer, const RayBlock& block, const SurfaceHits& 
 } // namespace
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
-                              const Parallel& parallel, RayOrdering ordering) {
-    BlockLoop loop(tracer, rays, parallel, ordering);
+                              const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
+    BlockLoop loop(tracer, rays, parallel, watch, ordering);
     const auto answer = [&](RayBlock& block) {
         if (takes_many(tracer)) {
-            const SurfaceHits found{block.scratch.take<PrimitiveHit>(block.size()),
-                                    block.scratch.take<Corners>(block.size())};
-            tracer.accel().closest_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()},
-                                        found, block.scratch);
+            auto* const found = block.scratch.take<PrimitiveHit>(block.size());
+            tracer.accel().closest_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
             write_hits(tracer, block, found, loop.window(), hits);
         } else {
             Hit* const found = block.scratch.take<Hit>(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.closest(block.rays[k], block.skips[k]);
+            for (std::size_t k = 0; k < block.size(); ++k)
+                found[k] = tracer.closest(block.rays[k], block.skips.query(k));
             loop.window().write(block.elements, found, hits);
         }
     };
@@ -186,14 +204,13 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
-                             const Parallel& parallel, RayOrdering ordering) {
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
+                             const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
         bool* const found = block.scratch.take<bool>(block.size());
         if (takes_many(tracer)) {
-            tracer.accel().any_many({block.rays, block.skips.data(), block.size(), tracer.primitives().bounds()}, found,
-                                    block.scratch);
+            tracer.accel().any_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
         } else {
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips[k]);
+            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips.query(k));
         }
         occluded.write(block.elements, found);
     });
@@ -202,17 +219,18 @@ std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const 
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
-                                  const Parallel& parallel, RayOrdering ordering) {
+                                  const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
     std::vector<std::vector<Hit>> found(rays.count);
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, ordering).run([&](RayBlock& block) {
+    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
         for (std::size_t k = 0; k < block.size(); ++k)
-            tracer.all(block.rays[k], found[block.elements[k]], block.skips[k]);
+            tracer.all(block.rays[k], found[block.elements[k]], block.skips.query(k));
     });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
         parallel.for_blocks(rays.count, fewest_rays, [&](std::uint64_t begin, std::uint64_t end) {
-            for (std::uint64_t i = begin; i < end; ++i) hits.write({first[i], found[i].size()}, found[i].data());
+            for (std::uint64_t i = begin; i < end; ++i)
+                hits.write({first[i], found[i].size()}, found[i].data(), tracer.primitives());
         });
     }
     // Last, so that an error before leaves the caller's offsets alone.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "batch/batch_progress.h"
 #include "batch/hit_arrays.h"
 #include "batch/ray_arrays.h"
 #include "scene/tracer.h"
@@ -17,15 +18,19 @@ enum class RayOrdering {
     never
 };
 
-// Each returns how many of the rays held a NaN. The skip lists have to be checked.
+// Each returns how many of the rays held a NaN. The skip lists have to be checked. Throws Error(ERROR_CANCELLED) when `watch` asks to
+// stop: what is written by then is right.
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
-                              const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
+                              const Parallel& parallel, const BatchWatch& watch = {},
+                              RayOrdering ordering = RayOrdering::where_it_pays);
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
-                             const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
+                             const Parallel& parallel, const BatchWatch& watch = {},
+                             RayOrdering ordering = RayOrdering::where_it_pays);
 
-// Writes rays.count + 1 offsets, and the hits when they fit the capacity. Returns through `needed` how many there are.
+// Writes rays.count + 1 offsets, and the hits when they fit the capacity; nothing when it is stopped. Returns through `needed` how many there are.
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
-                                  const Parallel& parallel, RayOrdering ordering = RayOrdering::where_it_pays);
+                                  const Parallel& parallel, const BatchWatch& watch = {},
+                                  RayOrdering ordering = RayOrdering::where_it_pays);
 
 } // namespace raywise

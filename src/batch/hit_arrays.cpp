@@ -1,5 +1,6 @@
 #include "batch/hit_arrays.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -53,15 +54,30 @@ void OutputArray::write(const Elements& elements, const bool* flags) const {
     }
 }
 
-void HitArrays::write(const Elements& elements, const Hit* hits) const {
+void HitArrays::write(const Elements& elements, const Hit* hits, const Primitives& primitives) const {
+    write_found(elements, hits);
+    if (!normal.wanted()) return;
+    constexpr std::size_t together = 64;
+    Vec3 normals[together];
+    for (std::size_t begin = 0; begin < elements.count(); begin += together) {
+        const std::size_t n = std::min(together, elements.count() - begin);
+        for (std::size_t k = 0; k < n; ++k) normals[k] = normal_of(hits[begin + k], primitives);
+        write_normals(elements.part(begin, n), normals);
+    }
+}
+
+void HitArrays::write_found(const Elements& elements, const Hit* hits) const {
     write_numbers(t, 0, elements, [=](std::size_t k) { return hits[k].t; });
     write_numbers(uv, 0, elements, [=](std::size_t k) { return hits[k].u; });
     write_numbers(uv, 1, elements, [=](std::size_t k) { return hits[k].v; });
-    for (int axis = 0; axis < 3; ++axis)
-        write_numbers(normal, axis, elements, [=](std::size_t k) { return hits[k].normal[axis]; });
     write_ids(instance, elements, hits, &Hit::instance);
     write_ids(geometry, elements, hits, &Hit::geometry);
     write_ids(primitive, elements, hits, &Hit::primitive);
+}
+
+void HitArrays::write_normals(const Elements& elements, const Vec3* normals) const {
+    for (int axis = 0; axis < 3; ++axis)
+        write_numbers(normal, axis, elements, [=](std::size_t k) { return normals[k][axis]; });
 }
 
 } // namespace raywise

@@ -25,12 +25,16 @@ struct OutputArray {
 struct HitArrays {
     OutputArray t;        // numbers: float32 or float64, rounded
     OutputArray uv;       // two
-    OutputArray normal;   // three
+    OutputArray normal;   // three; only where it is wanted are normals computed
     OutputArray instance; // ids: uint32 or uint64; no id has all bits set
     OutputArray geometry;
     OutputArray primitive;
 
-    void write(const Elements& elements, const Hit* hits) const;
+    // All fields.
+    void write(const Elements& elements, const Hit* hits, const Primitives& primitives) const;
+    // All but the normals, and those.
+    void write_found(const Elements& elements, const Hit* hits) const;
+    void write_normals(const Elements& elements, const Vec3* normals) const;
 };
 
 } // namespace raywise

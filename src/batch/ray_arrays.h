@@ -1,10 +1,10 @@
 // The rays of a batch, in the caller's arrays.
 #pragma once
 
-#include "base/ray.h"
 #include "batch/elements.h"
 #include "batch/skip_arrays.h"
 #include "geometry/triangle_mesh.h"
+#include "ray/ray.h"
 
 #include <cstddef>
 #include <cstdint>

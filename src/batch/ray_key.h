@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/box.h"
-#include "base/ray.h"
+#include "ray/ray.h"
 
 #include <cstddef>
 #include <cstdint>

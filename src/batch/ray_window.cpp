@@ -15,8 +15,14 @@ void for_runs(std::size_t begin, std::size_t end, const Body& body) {
 
 } // namespace
 
-RayWindow::RayWindow(const RayArrays& rays, const Box& bounds, const Parallel& parallel)
-    : rays_(rays), parallel_(parallel), keys_(bounds), order_(parallel) {}
+RayWindow::RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel,
+                     BatchProgress& progress)
+    : rays_(rays),
+      primitives_(primitives),
+      parallel_(parallel),
+      progress_(progress),
+      keys_(primitives.bounds()),
+      order_(parallel) {}
 
 // Whether most rays are in the cell and octant of the one before: of every sixteenth run.
 bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
@@ -42,6 +48,7 @@ void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
         std::uint32_t keys[together];
         std::uint64_t invalid = 0;
         for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
+            progress_.poll();
             invalid += rays_.read({first + begin, n}, rays);
             keys_.of(rays, n, keys);
             std::copy_n(keys, n, all_keys + begin);
@@ -72,19 +79,27 @@ void RayWindow::read(const Elements& part, Ray* rays) {
 
 void RayWindow::write(const Elements& part, const Hit* found, const HitArrays& hits) {
     if (!has_slots_) {
-        hits.write(part, found);
+        hits.write(part, found, primitives_);
         return;
     }
-    for (std::size_t k = 0; k < part.count(); ++k) slots_[slot(part, k)].put(found[k]);
+    const bool with_normals = hits.normal.wanted();
+    for (std::size_t k = 0; k < part.count(); ++k)
+        slots_[slot(part, k)].put(Answer{found[k], with_normals ? normal_of(found[k], primitives_) : Vec3(0.0)});
 }
 
 void RayWindow::finish(const HitArrays& hits) const {
     if (!has_slots_) return;
     parallel_.for_blocks(elements_.count(), 16 * together, [&](std::uint64_t block_begin, std::uint64_t block_end) {
         Hit found[together];
+        Vec3 normals[together];
         for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
-            for (std::size_t k = 0; k < n; ++k) found[k] = slots_[begin + k].get<Hit>();
-            hits.write({first_ + begin, n}, found);
+            for (std::size_t k = 0; k < n; ++k) {
+                const Answer& answer = slots_[begin + k].get<Answer>();
+                found[k] = answer.hit;
+                normals[k] = answer.normal;
+            }
+            hits.write_found({first_ + begin, n}, found);
+            hits.write_normals({first_ + begin, n}, normals);
         });
     });
 }

@@ -5,6 +5,7 @@
 
 #include "base/page_array.h"
 #include "base/parallel.h"
+#include "batch/batch_progress.h"
 #include "batch/hit_arrays.h"
 #include "batch/ray_arrays.h"
 #include "batch/ray_order.h"
@@ -23,8 +24,7 @@ public:
     // The most rays of a window: 80 bytes of memory for each, where they are put in order.
     static constexpr std::size_t most = std::size_t{1} << 20;
 
-    // bounds: of the scene.
-    RayWindow(const RayArrays& rays, const Box& bounds, const Parallel& parallel);
+    RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel, BatchProgress& progress);
 
     // Moves to rays first ... first + count - 1. In order: as they are best traced; those that come so already, as a camera's do, stay
     // where they are.
@@ -42,7 +42,7 @@ public:
     std::uint64_t invalid() const { return invalid_.load(); }
 
 private:
-    // A ray, until its hit is there.
+    // A ray, until its answer is there.
     struct alignas(64) Slot {
         template <class T>
         void put(const T& value) {
@@ -57,12 +57,20 @@ private:
         std::byte bytes[64];
     };
 
+    // With the normal, where that is wanted: the triangle is still at hand when the answer is put here.
+    struct Answer {
+        Hit hit;
+        Vec3 normal{0.0};
+    };
+
     bool come_in_order(std::uint64_t first, std::size_t count) const;
     void read_to_slots(std::uint64_t first, std::size_t count);
     std::size_t slot(const Elements& part, std::size_t k) const { return part[k] - first_; }
 
     const RayArrays& rays_;
+    const Primitives& primitives_;
     const Parallel& parallel_;
+    BatchProgress& progress_;
     const RayKeys keys_;
     RayOrder order_;
     PageArray<Slot> slots_; // in the order of the caller's arrays

@@ -7,10 +7,14 @@
 
 namespace raywise {
 
+std::string SkipEntry::place(const char* where, std::uint64_t index) {
+    return index == no_index ? std::string(where) : std::string(where) + "[" + std::to_string(index) + "]";
+}
+
 std::uint32_t SkipEntry::number(const Primitives& primitives, const char* where, std::uint64_t index) const {
     const auto& meshes = primitives.meshes();
     const auto fail = [&](const std::string& what) {
-        return Error(Status::ERROR_INDEX_OUT_OF_RANGE, std::string(where) + "[" + std::to_string(index) + "]: " + what);
+        return Error(Status::ERROR_INDEX_OUT_OF_RANGE, place(where, index) + ": " + what);
     };
     if (geometry >= meshes.size()) {
         throw fail("geometry " + std::to_string(geometry) + " is out of range, the scene has " +
@@ -46,7 +50,7 @@ void SkipArrays::check(std::uint64_t rays, const Primitives& primitives) const {
 
 void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives) {
     numbers_.clear();
-    lists_.clear();
+    queries_.clear();
     if (!arrays.wanted()) return;
     std::vector<std::size_t> ends;
     ends.reserve(rays.count());
@@ -60,10 +64,10 @@ void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primi
         std::sort(numbers_.begin() + begin, numbers_.end());
         ends.push_back(numbers_.size());
     }
-    lists_.reserve(rays.count());
+    queries_.reserve(rays.count());
     const std::uint32_t* begin = numbers_.data();
     for (const std::size_t end : ends) {
-        lists_.push_back({begin, numbers_.data() + end});
+        queries_.push_back({{begin, numbers_.data() + end}});
         begin = numbers_.data() + end;
     }
 }

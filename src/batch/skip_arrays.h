@@ -1,12 +1,13 @@
 // The skip lists of a batch, in the caller's arrays.
 #pragma once
 
-#include "base/skip_list.h"
 #include "batch/elements.h"
 #include "geometry/primitives.h"
 #include "geometry/triangle_mesh.h"
+#include "ray/query.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace raywise {
@@ -19,8 +20,10 @@ struct SkipEntry {
     bool stands_for_nothing() const {
         return primitive == PrimitiveHit::no_primitive || primitive == ~std::uint64_t{0};
     }
-    // The primitive's number. Throws Error(ERROR_INDEX_OUT_OF_RANGE), its text behind `where`, for an id that is not there.
-    std::uint32_t number(const Primitives& primitives, const char* where, std::uint64_t index) const;
+    // The primitive's number. Throws Error(ERROR_INDEX_OUT_OF_RANGE), its text behind where[index], for an id that is not there.
+    std::uint32_t number(const Primitives& primitives, const char* where, std::uint64_t index = no_index) const;
+    static constexpr std::uint64_t no_index = ~std::uint64_t{0};
+    static std::string place(const char* where, std::uint64_t index);
 };
 
 struct SkipArrays {
@@ -49,12 +52,12 @@ public:
     // arrays: that were checked.
     void read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives);
 
-    const SkipList* data() const { return lists_.empty() ? nullptr : lists_.data(); } // null: none skips anything
-    SkipList operator[](std::size_t ray) const { return lists_.empty() ? SkipList{} : lists_[ray]; }
+    const Query* queries() const { return queries_.empty() ? nullptr : queries_.data(); } // null: none skips anything
+    Query query(std::size_t ray) const { return queries_.empty() ? Query{} : queries_[ray]; }
 
 private:
     std::vector<std::uint32_t> numbers_;
-    std::vector<SkipList> lists_;
+    std::vector<Query> queries_;
 };
 
 // Sorted, and seen as a list.

@@ -50,6 +50,7 @@ public:
             lower_[axis] = hn::Set(Lanes(), std::numeric_limits<T>::infinity());
             upper_[axis] = hn::Set(Lanes(), -std::numeric_limits<T>::infinity());
         }
+        largest_size_ = hn::Zero(Lanes());
     }
 
     // Which of the triangles that begin at `lines` are doubtful, as bits; the bounds are extended by the others.
@@ -82,14 +83,16 @@ public:
             lower_[axis] = all ? low : hn::IfThenElse(certain, low, lower_[axis]);
             upper_[axis] = all ? high : hn::IfThenElse(certain, high, upper_[axis]);
         }
+        largest_size_ = hn::Max(largest_size_, all ? size : hn::IfThenElseZero(certain, size));
         if (HWY_LIKELY(all)) return 0;
         std::uint8_t bits[8] = {};
         hn::StoreMaskBits(d, hn::Not(certain), bits);
         return bits[0] | std::uint32_t{bits[1]} << 8;
     }
 
-    Box bounds() const {
-        Box box;
+    Reach reach() const {
+        Reach reach;
+        Box& box = reach.bounds;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<glm::length_t>(axis);
             HWY_ALIGN T lower[lane_count];
@@ -99,7 +102,11 @@ public:
             for (const T x : lower) box.lower[i] = std::min(box.lower[i], static_cast<double>(x));
             for (const T x : upper) box.upper[i] = std::max(box.upper[i], static_cast<double>(x));
         }
-        return box;
+        HWY_ALIGN T size[lane_count];
+        hn::Store(largest_size_, Lanes(), size);
+        // Two edges meet in the first corner: the third is no longer than both.
+        for (const T x : size) reach.largest_extent = std::max(reach.largest_extent, 2.0 * static_cast<double>(x));
+        return reach;
     }
 
 private:
@@ -109,10 +116,11 @@ private:
 
     Vector lower_[3];
     Vector upper_[3];
+    Vector largest_size_; // of two edges of a triangle
 };
 
 template <class T>
-void check_in_tiles(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Box& bounds,
+void check_in_tiles(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
                     std::vector<std::uint32_t>& doubtful) {
     HWY_ALIGN T lines[tile / corner_block * corner_block_numbers];
     AreaCheck<T> check;
@@ -127,15 +135,15 @@ void check_in_tiles(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t
             }
         }
     }
-    bounds.extend(check.bounds());
+    reach.extend(check.reach());
 }
 
-void check_areas_kernel(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Box& bounds,
+void check_areas_kernel(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
                         std::vector<std::uint32_t>& doubtful) {
     if (mesh.arrays().vertices.scalar == Scalar::float32) {
-        check_in_tiles<float>(mesh, first, end, bounds, doubtful);
+        check_in_tiles<float>(mesh, first, end, reach, doubtful);
     } else {
-        check_in_tiles<double>(mesh, first, end, bounds, doubtful);
+        check_in_tiles<double>(mesh, first, end, reach, doubtful);
     }
 }
 
@@ -148,9 +156,9 @@ namespace raywise {
 
 HWY_EXPORT(check_areas_kernel);
 
-void check_areas(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Box& bounds,
+void check_areas(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
                  std::vector<std::uint32_t>& doubtful) {
-    HWY_DYNAMIC_DISPATCH(check_areas_kernel)(mesh, first, end, bounds, doubtful);
+    HWY_DYNAMIC_DISPATCH(check_areas_kernel)(mesh, first, end, reach, doubtful);
 }
 
 } // namespace raywise

@@ -15,7 +15,7 @@ bool may_be_on_edge(const PrimitiveHit& hit) {
 // A ray that is moved aside, towards the inside of a triangle.
 class NudgedRay {
 public:
-    NudgedRay(const PreparedRay& ray, const Corners& towards)
+    NudgedRay(const ExactRay& ray, const Corners& towards)
         : ray_(ray), towards_(towards), direction_(BinaryUnit{ray.direction}.count(ray.direction)) {}
 
     // For a triangle that the ray meets.
@@ -50,14 +50,14 @@ private:
         return 0;
     }
 
-    const PreparedRay& ray_;
+    const ExactRay& ray_;
     const Corners& towards_;
     WideVec3 direction_;
 };
 
 } // namespace
 
-void keep_crossings(const PreparedRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits) {
+void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits) {
     // The first hit stays; where no other may be on an edge there is nothing to decide.
     if (hits.size() < 2 || std::none_of(hits.begin() + 1, hits.end(), may_be_on_edge)) return;
     const Corners first = primitives.corners(hits.front().primitive);

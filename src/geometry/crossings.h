@@ -1,8 +1,8 @@
 // From the triangles that a ray meets to the crossings of surfaces: the rule for all hits.
 #pragma once
 
-#include "base/ray.h"
 #include "geometry/primitives.h"
+#include "ray/exact_ray.h"
 
 #include <vector>
 
@@ -18,6 +18,6 @@ namespace raywise {
 // mesh an even number of times, and since it still hits the first triangle the closest hit stays the first of all hits.
 //
 // The direction is not moved: what is seen edge-on stays without a hit.
-void keep_crossings(const PreparedRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits);
+void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits);
 
 } // namespace raywise

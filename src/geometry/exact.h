@@ -14,7 +14,7 @@ struct Weights {
     double c;
 };
 
-// Whether the line meets the triangle, edges and corners included, and is not in its plane. direction: of a PreparedRay.
+// Whether the line meets the triangle, edges and corners included, and is not in its plane. direction: of a ExactRay.
 // The weights are then exact to a few units in the last place; otherwise they mean nothing.
 bool exact_weights(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c,
                    Weights& weights);

@@ -15,7 +15,7 @@
 namespace raywise {
 
 // Room for the widest value asked for: coordinates are multiples of 2^-1074 below 2^1024, so their differences take 2,099 bits;
-// a prepared direction's components are multiples of 2^-552 below 2 (PreparedRay::smallest_direction), 553 bits. A determinant
+// a prepared direction's components are multiples of 2^-552 below 2 (ExactRay::smallest_direction), 553 bits. A determinant
 // is a sum of six products of two differences and a direction: 2 * 2,099 + 553 + 3 bits; crossings.cpp adds six of those. A
 // volume is a sum of six products of three differences: 3 * 2,099 + 3 bits. A polygon's normal is a sum of two products of two
 // differences for each of less than 2^64 corners.

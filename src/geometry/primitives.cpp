@@ -30,24 +30,26 @@ Vec3 scaled_normal(const Corners& c) {
 // Fewer than this are not worth another thread.
 constexpr std::uint64_t triangles_per_task = 32768;
 
-// Returns the triangles that cannot be hit, and extends the bounds by the others.
-std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Box& bounds) {
+// Returns the triangles that cannot be hit, and extends the reach by the others.
+std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Reach& reach) {
     std::vector<std::uint32_t> unhittable;
     std::mutex mutex;
     const auto settle = [&](std::uint64_t begin, std::uint64_t end) {
         std::vector<std::uint32_t> doubtful;
-        Box box;
-        check_areas(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), box, doubtful);
+        Reach here;
+        check_areas(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), here, doubtful);
         const auto has_area = [&](std::uint32_t i) {
             if (!mesh.is_valid(i)) return false;
             const Corners c = mesh.corners(i);
             if (scaled_normal(c) == Vec3(0.0)) return false;
+            Box box;
             for (const Vec3& p : c) box.extend(p);
+            here.extend({box, max_component(box.size())});
             return true;
         };
         doubtful.erase(std::remove_if(doubtful.begin(), doubtful.end(), has_area), doubtful.end());
         const std::lock_guard lock(mutex);
-        bounds.extend(box);
+        reach.extend(here);
         unhittable.insert(unhittable.end(), doubtful.begin(), doubtful.end());
     };
     if (mesh.triangle_count() <= triangles_per_task) {
@@ -74,13 +76,16 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, 
     count_ = static_cast<std::uint32_t>(total);
 
     std::vector<std::uint32_t> unhittable;
+    Reach reach;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const TriangleMesh& mesh = *meshes_[m];
-        for (const std::uint32_t i : settle_areas(mesh, parallel, bounds_)) {
+        for (const std::uint32_t i : settle_areas(mesh, parallel, reach)) {
             unhittable.push_back(first_[m] + i);
             ++(mesh.is_valid(i) ? degenerate_count_ : invalid_count_);
         }
     }
+    bounds_ = reach.bounds;
+    largest_extent_ = reach.largest_extent;
     hittable_count_ = count_ - degenerate_count_ - invalid_count_;
     if (unhittable.empty()) return;
     unhittable_.resize(count_, false);

@@ -3,9 +3,9 @@
 
 #include "base/box.h"
 #include "base/parallel.h"
-#include "base/ray.h"
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_test.h"
+#include "ray/exact_ray.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace raywise {
 // A hit inside the library. Primitives are numbered through all meshes in the order of adding, so the lowest number is
 // the lowest (geometry, primitive) id.
 struct PrimitiveHit {
-    double t = std::numeric_limits<double>::infinity(); // scaled, as PreparedRay counts it
+    double t = std::numeric_limits<double>::infinity(); // in the caller's unit
     double u = 0.0;
     double v = 0.0;
     std::uint32_t primitive = no_primitive;
@@ -49,6 +49,7 @@ public:
     std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
     const Box& bounds() const { return bounds_; }                        // of all hittable primitives
+    double largest_extent() const { return largest_extent_; }            // none of them is longer along any axis
     std::uint64_t degenerate_count() const { return degenerate_count_; } // without area
     std::uint64_t invalid_count() const { return invalid_count_; }
     std::uint64_t hittable_count() const { return hittable_count_; }
@@ -76,18 +77,15 @@ public:
 
     std::uint32_t number(const PrimitiveId& id) const { return first_[id.geometry] + id.primitive; }
 
-    // Whether the ray hits the primitive within [ray.tmin, ray.tmax], and does not skip it. The only way to a hit, for every
-    // structure.
-    bool test(const PreparedRay& ray, std::uint32_t primitive, PrimitiveHit& hit) const {
+    // Whether the ray hits the primitive within [ray.tmin, ray.tmax]. The same hits as test_triangle_block, one at a time.
+    bool test(const ExactRay& ray, std::uint32_t primitive, PrimitiveHit& hit) const {
         return is_hittable(primitive) && test_corners(ray, corners(primitive), primitive, hit);
     }
 
-    // The same for a structure that has the corners, which have to be those of a hittable primitive.
-    static bool test_corners(const PreparedRay& ray, const Corners& c, std::uint32_t primitive, PrimitiveHit& hit) {
+    // The same with the corners at hand, which have to be those of a hittable primitive.
+    static bool test_corners(const ExactRay& ray, const Corners& c, std::uint32_t primitive, PrimitiveHit& hit) {
         TriangleHit found;
-        if (!test_triangle(ray, c[0], c[1], c[2], found)) return false;
-        if (!(ray.tmin <= found.t && found.t <= ray.tmax)) return false;
-        if (!ray.skip.empty() && ray.skip.contains(primitive)) return false;
+        if (!test_triangle(ray, c[0], c[1], c[2], found) || !ray.contains(found.t)) return false;
         hit = {found.t, found.u, found.v, primitive};
         return true;
     }
@@ -97,6 +95,7 @@ private:
     std::vector<std::uint32_t> first_; // the number of each mesh's first triangle
     std::vector<bool> unhittable_;     // empty when all can be hit
     Box bounds_;
+    double largest_extent_ = 0.0;
     std::uint32_t count_ = 0;
     std::uint64_t degenerate_count_ = 0;
     std::uint64_t invalid_count_ = 0;

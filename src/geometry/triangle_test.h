@@ -13,19 +13,20 @@
 // cannot be hit. No epsilon is used anywhere.
 #pragma once
 
-#include "base/ray.h"
 #include "base/vec.h"
 #include "geometry/exact.h"
+#include "ray/exact_ray.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace raywise {
 
 // What the test computes. u and v are the weights of the second and third corner, and lie within 2^-30 of the exact ones; for
 // triangles that are not tiny against their distance they are good to nearly all bits.
 struct TriangleHit {
-    double t; // scaled, as PreparedRay counts it
+    double t; // in the caller's unit
     double u;
     double v;
 };
@@ -39,7 +40,7 @@ struct Sheared {
     double z;
 };
 
-inline Sheared shear(const PreparedRay& ray, const Vec3& corner) {
+inline Sheared shear(const ExactRay& ray, const Vec3& corner) {
     const double z = at(corner, ray.major_axis) - ray.axis_origin.z;
     return {(at(corner, ray.x_axis) - ray.axis_origin.x) - ray.shear_x * z,
             (at(corner, ray.y_axis) - ray.axis_origin.y) - ray.shear_y * z, z};
@@ -62,11 +63,11 @@ struct Edges {
 // z of a hit that lies within z_error of the ray's origin, with the sign that exact arithmetic gives it: a ray that starts on a
 // triangle hits it at 0, one that starts beyond it, by however little, does not hit it again. backwards: whether the edges add up
 // to less than zero.
-double z_near_origin(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, bool backwards, double z,
+double z_near_origin(const ExactRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, bool backwards, double z,
                      double z_error);
 
 // The test of a triangle that may be hit, or is so close to the ray or so small that its miss is not certain at first sight.
-inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, const Sheared& sa,
+inline bool test_closely(const ExactRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, const Sheared& sa,
                          const Sheared& sb, const Sheared& sc, const Edges& edges, TriangleHit& hit) {
     auto [wa, wb, wc] = edges;
     const Vec3 pa = a - ray.origin;
@@ -99,7 +100,7 @@ inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, c
         Weights exact;
         if (!exact_weights(ray.origin, ray.direction, a, b, c, exact)) return false;
         // The edges above are these determinants divided by the direction's largest component.
-        const double sign = std::copysign(1.0, at(ray.inverse, ray.major_axis));
+        const double sign = std::copysign(1.0, ray.inverse_major);
         wa = sign * exact.a;
         wb = sign * exact.b;
         wc = sign * exact.c;
@@ -110,36 +111,33 @@ inline bool test_closely(const PreparedRay& ray, const Vec3& a, const Vec3& b, c
     double z = std::clamp(sa.z + (u * (sb.z - sa.z) + v * (sc.z - sa.z)), z_low, z_high);
     const double z_error = 0x1p-38 * largest;
     // Where the ray's interval begins beyond z_error the hit is not in it either way, and need not be told from one at the start.
-    if (z_low <= 0.0 && z_high >= 0.0 && std::fabs(z) <= z_error && ray.tmin <= 2.0 * z_error)
+    if (z_low <= 0.0 && z_high >= 0.0 && std::fabs(z) <= z_error && ray.scaled_tmin <= 2.0 * z_error)
         z = z_near_origin(ray, a, b, c, sum < 0.0, z, z_error);
-    // As the caller will see it: two hits that are at the same t there have to be so here, where they are put in order.
-    hit.t = ray.from_caller(ray.to_caller(z * at(ray.inverse, ray.major_axis)));
-    hit.t += 0.0; // here and below: never a negative zero
-    hit.u = u + 0.0;
+    hit.t = ray.caller_t(z * ray.inverse_major);
+    hit.u = u + 0.0; // never a negative zero
     hit.v = v + 0.0;
     return true;
 }
 
 } // namespace triangle_test_detail
 
-// a, b, c: corners, within the bounds the ray was prepared for. Returns whether the line of the ray hits the triangle, in front
-// of the origin or behind it; the caller compares hit.t with its interval.
-//
-// Nearly all triangles that are missed are told by one bound on the error of edges that serves all triangles of the scene: it
-// is the bound of test_closely for corners as far away as the scene reaches, R. `reach` there is at most 12 R (1 + 2^-49), since
-// a sheared coordinate is at most 2 R (1 + 2^-50); so `error` is below (12.2 + 72.1) * 2^-50 R^2, and certain_edge is 2^-43 R^2.
-// An edge beyond certain_edge also says that `largest` is above 2^-400, as R is above 2^-370. So what is rejected here would
-// have been there: the answers are the same, and the larger bound is only passed on to the closer one.
-inline bool test_triangle(const PreparedRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, TriangleHit& hit) {
+// a, b, c: corners. Returns whether the line of the ray hits the triangle, in front of the origin or behind it; the caller compares
+// hit.t with its interval.
+inline bool test_triangle(const ExactRay& ray, const Vec3& a, const Vec3& b, const Vec3& c, TriangleHit& hit) {
     using namespace triangle_test_detail;
     const Sheared sa = shear(ray, a);
     const Sheared sb = shear(ray, b);
     const Sheared sc = shear(ray, c);
-    const Edges edges{edge(sb, sc), edge(sc, sa), edge(sa, sb)};
-    const double highest = std::max(std::max(edges.wa, edges.wb), edges.wc);
-    const double lowest = std::min(std::min(edges.wa, edges.wb), edges.wc);
-    if (highest > ray.certain_edge && lowest < -ray.certain_edge) return false;
-    return test_closely(ray, a, b, c, sa, sb, sc, edges, hit);
+    return test_closely(ray, a, b, c, sa, sb, sc, {edge(sb, sc), edge(sc, sa), edge(sa, sb)}, hit);
+}
+
+// What tells most misses at first sight: an edge value beyond it has the right sign, whatever the triangle, as long as no corner is
+// farther than `distance` from the ray's origin along any axis. It is the bound of test_closely for such corners: `reach` there is at most
+// 12 R (1 + 2^-49) with R the distance, since a sheared coordinate is at most 2 R (1 + 2^-50); so `error` is below (12.2 + 72.1) * 2^-50
+// R^2. Infinite where products of coordinates might leave the range of float64.
+inline double certain_edge(double distance) {
+    return distance > 0x1p-370 && distance < 0x1p400 ? 0x1p-43 * distance * distance
+                                                     : std::numeric_limits<double>::infinity();
 }
 
 } // namespace raywise

@@ -220,9 +220,9 @@ private:
             sample_ = request_.sample.empty()
                           ? make_sample_rays(*request_.primitives, request_.workload.kind, request_.view)
                           : request_.sample;
-            sample_.erase(std::remove_if(sample_.begin(), sample_.end(),
-                                         [](const Ray& ray) { return !PreparedRay::is_traceable(ray); }),
-                          sample_.end());
+            sample_.erase(
+                std::remove_if(sample_.begin(), sample_.end(), [](const Ray& ray) { return !ray.is_traceable(); }),
+                sample_.end());
         }
         const bool any = request_.workload.kind == RayKind::shadow;
         std::size_t done = 0;
@@ -231,8 +231,7 @@ private:
         while (done < sample_.size() && spent < sample_time_limit_ns) {
             const std::size_t end = std::min(sample_.size(), done + 16); // look at the clock now and then only
             for (; done < end; ++done) {
-                const PreparedRay ray(sample_[done], request_.primitives->bounds());
-                const bool hit = any ? accel.any(ray) : accel.closest(ray).is_hit();
+                const bool hit = any ? accel.any(sample_[done], {}) : accel.closest(sample_[done], {}).is_hit();
                 sample_hits_ += hit ? 1 : 0;
             }
             spent = ns_since(start);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "base/ray.h"
 #include "geometry/primitives.h"
 #include "model/decide.h"
 #include "model/hapala_rule.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "base/ray.h"
 #include "geometry/primitives.h"
 #include "model/workload.h"
+#include "ray/ray.h"
 
 #include <optional>
 #include <vector>

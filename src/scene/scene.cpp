@@ -57,6 +57,34 @@ void Scene::commit(const Parallel& parallel, Progress& progress) {
     build(std::nullopt, parallel, progress);
 }
 
+std::shared_ptr<Scene> Scene::seen(std::shared_ptr<const Scene> scene, const ViewRequest& request,
+                                   const Parallel& parallel, Progress& progress) {
+    scene->require_committed();
+    if (scene->behind_) scene = scene->behind_;
+    auto view = std::make_shared<Scene>(scene->profile_);
+    view->meshes_ = scene->meshes_;
+    view->triangle_count_ = scene->triangle_count_;
+    view->view_ = request;
+
+    PlanRequest plan;
+    plan.primitives = scene->tracer_->shared_primitives();
+    plan.profile = scene->profile_;
+    plan.workload = request.workload;
+    plan.forced = request.forced;
+    plan.memory_limit = scene->memory_limit_;
+    plan.view = request.frame;
+    // A projected structure of the scene's was built without this view and cannot stand in for one that is.
+    if (!needs_view(scene->plan_.chosen)) {
+        plan.ready = scene->plan_.chosen;
+        plan.ready_accel = scene->tracer_->shared_accel();
+    }
+    view->plan_and_commit(plan, parallel, progress);
+    // What has become of the scene's structure goes for the view that uses it.
+    if (&view->tracer_->accel() == &scene->tracer_->accel()) view->plan_.refit = scene->plan_.refit;
+    view->behind_ = std::move(scene);
+    return view;
+}
+
 std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
                                        Progress& progress) const {
     require_committed();
@@ -65,6 +93,7 @@ std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, con
                                                         ", the scene has " + std::to_string(meshes_.size()) +
                                                         " meshes");
     }
+    if (behind_) return seen(behind_->refitted(meshes, parallel, progress), view_, parallel, progress);
     auto scene = std::make_shared<Scene>(profile_);
     scene->triangle_count_ = triangle_count_;
     scene->workload_ = workload_;
@@ -101,6 +130,10 @@ void Scene::build(const std::optional<PlanBefore>& before, const Parallel& paral
     request.forced = forced_;
     request.memory_limit = memory_limit_;
     if (before) request.before.emplace(*before);
+    plan_and_commit(request, parallel, progress);
+}
+
+void Scene::plan_and_commit(const PlanRequest& request, const Parallel& parallel, Progress& progress) {
     PlannedAccel planned = plan_and_build(request, parallel, progress);
 
     // Nothing below can fail half-way: the scene changes with the last line or not at all.

@@ -1,4 +1,5 @@
-// A scene: filled, told what to expect, committed, and from then on immutable.
+// A scene: filled, told what to expect, committed, and from then on immutable. A view is one too: of the geometry of another scene, with a
+// structure chosen for rays from a point or along a direction.
 #pragma once
 
 #include "scene/planner.h"
@@ -20,6 +21,12 @@ struct MovedMesh {
     std::string name; // in front of messages about it
 };
 
+struct ViewRequest {
+    ViewFrame frame;
+    Workload workload;
+    std::optional<Structure> forced;
+};
+
 class Scene {
 public:
     explicit Scene(std::shared_ptr<const Profile> profile) : profile_(std::move(profile)) {}
@@ -34,8 +41,14 @@ public:
 
     bool is_committed() const { return tracer_ != nullptr; }
 
+    // A committed scene of the same geometry, for rays of that view. The scene is kept: its own structure is a candidate that costs
+    // nothing to build, and its memory limit holds for the view's structure as well. A view of a view is one of the scene behind it.
+    // Throws Error(ERROR_NOT_COMMITTED).
+    static std::shared_ptr<Scene> seen(std::shared_ptr<const Scene> scene, const ViewRequest& request,
+                                       const Parallel& parallel, Progress& progress);
+
     // A committed scene of the same meshes at new places; what was said of this one before the commit holds for it too. Its structure is
-    // this one's refitted, or else built. Throws Error with ERROR_NOT_COMMITTED, and with ERROR_INVALID_ARGUMENT when numbers differ.
+    // this one's refitted, or else built. Of a view: the same view of its scene, refitted. Throws Error with ERROR_NOT_COMMITTED, and with ERROR_INVALID_ARGUMENT when numbers differ.
     std::shared_ptr<Scene> refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
                                     Progress& progress) const;
 
@@ -43,13 +56,13 @@ public:
     const Tracer& tracer() const;
     const Plan& plan() const;
     const std::shared_ptr<const Profile>& profile() const { return profile_; }
-    std::uint64_t memory_limit() const { return memory_limit_; }
     std::uint64_t geometry_bytes() const;
 
 private:
     void require_uncommitted() const;
     void require_committed() const;
     void build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress);
+    void plan_and_commit(const PlanRequest& request, const Parallel& parallel, Progress& progress);
 
     std::shared_ptr<const Profile> profile_;
     std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
@@ -61,6 +74,9 @@ private:
     Effort effort_ = Effort::estimate;
     Rule rule_ = Rule::smallest_total;
     double time_limit_seconds_ = 0.0;
+
+    std::shared_ptr<const Scene> behind_; // of a view: the scene, which is none itself
+    ViewRequest view_;
 
     Plan plan_;
     std::unique_ptr<const Tracer> tracer_;

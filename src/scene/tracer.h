@@ -1,8 +1,7 @@
-// Geometry with a built structure: answers one ray. Scenes and views both end here, which is why their answers cannot differ.
+// Geometry with a built structure: answers one ray.
 #pragma once
 
 #include "accel/accel.h"
-#include "base/ray.h"
 #include "geometry/primitives.h"
 
 #include <atomic>
@@ -16,16 +15,23 @@ namespace raywise {
 
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-// An answer as the caller sees it: t in units of the caller's direction.
+// An answer as the caller sees it: t in units of the caller's direction. Without a normal, which costs a square root and three corners
+// that are read for nothing else: see normal_of.
 struct Hit {
     double t = std::numeric_limits<double>::infinity();
     double u = 0.0;
     double v = 0.0;
-    Vec3 normal{0.0};
     std::uint32_t instance = invalid_id;
     std::uint32_t geometry = invalid_id;
     std::uint32_t primitive = invalid_id;
+
+    bool is_hit() const { return primitive != invalid_id; }
 };
+
+// Of the triangle that was hit, of unit length; zero for a miss.
+inline Vec3 normal_of(const Hit& hit, const Primitives& primitives) {
+    return hit.is_hit() ? unit_normal(primitives.meshes()[hit.geometry]->corners(hit.primitive)) : Vec3(0.0);
+}
 
 // What has been asked so far. Counted with relaxed atomics: figures for people, nothing depends on them.
 struct Usage {
@@ -38,19 +44,18 @@ class Tracer {
 public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
-    // skip: numbers of this scene's primitives.
-    Hit closest(const Ray& ray, SkipList skip = {}) const {
-        const SurfaceHit hit = accel_->closest(UnpreparedRay{ray, primitives_->bounds(), skip});
+    Hit closest(const Ray& ray, const Query& query = {}) const {
+        const PrimitiveHit hit = accel_->closest(ray, query);
         if (!hit.is_hit()) count_invalid(ray);
-        return to_caller(ray, hit, hit.corners);
+        return to_caller(hit);
     }
-    bool any(const Ray& ray, SkipList skip = {}) const {
-        const bool found = accel_->any(UnpreparedRay{ray, primitives_->bounds(), skip});
+    bool any(const Ray& ray, const Query& query = {}) const {
+        const bool found = accel_->any(ray, query);
         if (!found) count_invalid(ray);
         return found;
     }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
-    void all(const Ray& ray, std::vector<Hit>& hits, SkipList skip = {}) const;
+    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const;
 
     const Primitives& primitives() const { return *primitives_; }
     const std::shared_ptr<const Primitives>& shared_primitives() const { return primitives_; }
@@ -58,17 +63,16 @@ public:
     const std::shared_ptr<const Accel>& shared_accel() const { return accel_; }
     Usage& usage() const { return *usage_; }
 
-    // What a structure answers to a ray, as the caller sees it. corners: needed for a hit only.
-    Hit to_caller(const Ray& ray, const PrimitiveHit& hit, const Corners& corners) const {
+    // What a structure answers, as the caller sees it.
+    Hit to_caller(const PrimitiveHit& hit) const {
         if (!hit.is_hit()) return {};
-        const RayUnit unit(MajorAxis(ray.direction).magnitude);
         const PrimitiveId id = primitives_->locate(hit.primitive);
-        return {unit.to_caller(hit.t), hit.u, hit.v, unit_normal(corners), invalid_id, id.geometry, id.primitive};
+        return {hit.t, hit.u, hit.v, invalid_id, id.geometry, id.primitive};
     }
 
 private:
     void count_invalid(const Ray& ray) const {
-        if (ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+        if (ray.may_have_nan() && ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
     }
 
     std::shared_ptr<const Primitives> primitives_;

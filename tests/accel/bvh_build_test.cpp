@@ -1,9 +1,9 @@
 // Scenes that break builders, and what a tree has to be whatever the scene.
-#include "accel/bvh_build.h"
+#include "accel/bvh/build/build.h"
 
-#include "accel/bvh.h"
-#include "accel/bvh_build_morton.h"
-#include "accel/bvh_build_nearest.h"
+#include "accel/bvh/build/morton.h"
+#include "accel/bvh/build/nearest.h"
+#include "accel/bvh/bvh.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
 

@@ -1,7 +1,7 @@
-#include "accel/bvh_reinsertion.h"
+#include "accel/bvh/build/reinsertion.h"
 
-#include "accel/bvh_build.h"
-#include "accel/bvh_build_bounds.h"
+#include "accel/bvh/build/bounds.h"
+#include "accel/bvh/build/build.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
 

@@ -1,10 +1,10 @@
-#include "accel/bvh_spatial_splits.h"
+#include "accel/bvh/build/spatial_splits.h"
 
-#include "accel/bvh_build.h"
-#include "accel/bvh_reference_cut.h"
+#include "accel/bvh/build/build.h"
+#include "accel/bvh/build/reference_cut.h"
 #include "accel/bvh_testing.h"
 #include "accel/bvh_tree_testing.h"
-#include "accel/scene_frame.h"
+#include "accel/dense_region.h"
 #include "accel/sticks_testing.h"
 
 #include <algorithm>
@@ -26,26 +26,12 @@ BvhBuildOptions high_quality(std::uint32_t block_size = 1) {
 // Cut primitives, and nothing moved afterwards.
 BvhTree build_cut(const BuildInput& input, const BvhBuildOptions& options, double budget = split_budget) {
     BvhTree tree;
-    tree.center = SceneFrame::choose_center(input.primitives.bounds());
+    tree.frame = scene_frame(input.primitives);
     const auto report = [&](std::uint64_t /*primitives*/) { input.progress.report(0.0, "bvh"); };
-    build_with_spatial_splits(gather_references(input, tree.center, report), budget, input, TreeCosts(input, options),
-                              report, tree);
+    build_with_spatial_splits(gather_references(input, tree.frame.center(), report), budget, input,
+                              TreeCosts(input, options), report, tree);
     return tree;
 }
-
-// The tree with the interface of a structure.
-class TreeAccel final : public TraversedAccel<TreeAccel> {
-public:
-    TreeAccel(const BuildInput& input, const BvhTree& tree) : TraversedAccel(input.primitives), tree_(tree) {}
-    std::size_t bytes() const override { return tree_.bytes(); }
-    template <class Visitor>
-    void traverse(const PreparedRay& ray, Visitor& visitor) const {
-        traverse_boxes(tree_, ray, visitor);
-    }
-
-private:
-    const BvhTree& tree_;
-};
 
 void expect_sound(const Triangles& triangles, unsigned seed, int rays = 100) {
     Scene one(triangles, 1);

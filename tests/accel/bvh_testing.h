@@ -45,13 +45,26 @@ private:
 
 inline Vec3 through_float(const Vec3& v) { return Vec3(Vec3f(v)); }
 
-// A scene as one mesh of float64 corners, and what a structure is built from.
+// A scene as one mesh, of float32 corners where that loses nothing, and what a structure is built from.
 class Scene {
 public:
     explicit Scene(const Triangles& triangles, unsigned threads = 1) : parallel_(threads) {
         TriangleArrays arrays;
-        arrays.vertices = {reinterpret_cast<const std::byte*>(triangles.data()), 3 * sizeof(double), sizeof(double),
-                           Scalar::float64};
+        std::vector<Vec3f> floats;
+        bool is_float32 = true;
+        for (const Corners& corners : triangles) {
+            for (const Vec3& corner : corners) {
+                floats.emplace_back(corner);
+                is_float32 = is_float32 && Vec3(floats.back()) == corner;
+            }
+        }
+        if (is_float32) {
+            arrays.vertices = {reinterpret_cast<const std::byte*>(floats.data()), 3 * sizeof(float), sizeof(float),
+                               Scalar::float32};
+        } else {
+            arrays.vertices = {reinterpret_cast<const std::byte*>(triangles.data()), 3 * sizeof(double), sizeof(double),
+                               Scalar::float64};
+        }
         arrays.vertex_count = 3 * triangles.size();
         arrays.triangle_count = triangles.size();
         primitives_ = std::make_unique<Primitives>(
@@ -86,11 +99,11 @@ template <class Structure>
 void expect_nothing_to_hit(const Triangles& triangles) {
     Scene scene(triangles);
     const Structure structure(scene.input());
-    const PreparedRay ray({Vec3(0.0), 0.0, Vec3(1.0), infinity}, scene.bounds());
+    const Ray ray{Vec3(0.0), 0.0, Vec3(1.0), infinity};
     std::vector<PrimitiveHit> hits;
-    structure.all(ray, hits);
-    EXPECT_FALSE(structure.closest(ray).is_hit());
-    EXPECT_FALSE(structure.any(ray));
+    structure.all(ray, {}, hits);
+    EXPECT_FALSE(structure.closest(ray, {}).is_hit());
+    EXPECT_FALSE(structure.any(ray, {}));
     EXPECT_TRUE(hits.empty());
     EXPECT_GT(structure.bytes(), 0u);
 }
@@ -98,25 +111,18 @@ void expect_nothing_to_hit(const Triangles& triangles) {
 // Closest, any and all against the linear scan. Returns whether the ray hits something.
 template <class Structure>
 bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
-    if (!PreparedRay::is_traceable(ray)) return false;
-    const PreparedRay prepared(ray, scene.bounds());
+    if (!ray.is_traceable()) return false;
     const oracle::PlainScan scan(scene.input());
-    const PrimitiveHit expected = scan.closest(prepared);
-    const SurfaceHit found = structure.closest(prepared);
-    if (found.is_hit()) {
-        EXPECT_EQ(found.corners, scene.primitives().corners(found.primitive)) << text_of(ray);
-    }
-    const UnpreparedRay unprepared{ray, scene.bounds(), {}};
-    EXPECT_TRUE(same_hit(expected, structure.closest(unprepared))) << "closest, not prepared; " << text_of(ray);
-    EXPECT_EQ(expected.is_hit(), structure.any(unprepared)) << "any, not prepared; " << text_of(ray);
+    const PrimitiveHit expected = scan.closest(ray, {});
+    const PrimitiveHit found = structure.closest(ray, {});
     EXPECT_TRUE(same_hit(expected, found))
         << "closest: expected " << expected.primitive << " at " << expected.t << ", found " << found.primitive << " at "
         << found.t << "; " << text_of(ray);
-    EXPECT_EQ(scan.any(prepared), structure.any(prepared)) << "any; " << text_of(ray);
+    EXPECT_EQ(scan.any(ray, {}), structure.any(ray, {})) << "any; " << text_of(ray);
     std::vector<PrimitiveHit> all_expected;
     std::vector<PrimitiveHit> all_found;
-    scan.all(prepared, all_expected);
-    structure.all(prepared, all_found);
+    scan.all(ray, {}, all_expected);
+    structure.all(ray, {}, all_found);
     std::sort(all_found.begin(), all_found.end()); // they may come in any order
     bool same = all_expected.size() == all_found.size();
     for (std::size_t i = 0; same && i < all_expected.size(); ++i) same = same_hit(all_expected[i], all_found[i]);
@@ -128,14 +134,13 @@ bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
 // The ray, and the same with intervals that begin or end at its hits, or lie behind its origin.
 template <class Structure>
 bool expect_same_with_intervals(Scene& scene, const Structure& structure, Ray ray) {
-    if (!PreparedRay::is_traceable(ray)) return false;
+    if (!ray.is_traceable()) return false;
     const bool hit = expect_same(scene, structure, ray);
-    const PreparedRay prepared(ray, scene.bounds());
     std::vector<PrimitiveHit> hits;
-    oracle::PlainScan(scene.input()).all(prepared, hits);
+    oracle::PlainScan(scene.input()).all(ray, {}, hits);
     if (hits.empty()) return hit;
-    const double first = prepared.to_caller(hits.front().t);
-    const double last = prepared.to_caller(hits.back().t);
+    const double first = hits.front().t;
+    const double last = hits.back().t;
     const auto with = [&](double tmin, double tmax) {
         ray.tmin = tmin;
         ray.tmax = tmax;

@@ -1,10 +1,10 @@
 // What the tests of builders ask of a tree.
 #pragma once
 
-#include "accel/binary_traversal.h"
-#include "accel/bvh_build.h"
-#include "accel/bvh_build_bounds.h"
-#include "accel/bvh_build_costs.h"
+#include "accel/bvh/binary_traversal.h"
+#include "accel/bvh/build/bounds.h"
+#include "accel/bvh/build/build.h"
+#include "accel/bvh/build/costs.h"
 #include "accel/bvh_testing.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ inline void expect_valid_tree(const BvhTree& tree, const Primitives& primitives,
         for (std::uint32_t i = 0; node.is_leaf() && i < node.count; ++i) {
             for (const Vec3& corner : primitives.corners(tree.references[node.first + i])) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    const double at = corner[axis] - tree.center[axis];
+                    const double at = corner[axis] - tree.frame.center()[axis];
                     if (at < static_cast<double>(node.planes[0][axis]) ||
                         at > static_cast<double>(node.planes[1][axis]))
                         ++outside;
@@ -122,13 +122,31 @@ inline void expect_same_tree(const BvhTree& a, const BvhTree& b) {
     }
 }
 
+// The tree with the interface of a structure.
+class TreeAccel final : public TraversedAccel<TreeAccel> {
+public:
+    TreeAccel(const BuildInput& input, const BvhTree& tree) : TraversedAccel(input.primitives), tree_(tree) {}
+    std::size_t bytes() const override { return tree_.bytes(); }
+    template <class Collector>
+    void traverse(const ExactRay& ray, Collector& collector) const {
+        const CellRay cell_ray(ray, primitives().bounds(), primitives().largest_extent());
+        if (!cell_ray.is_known()) return test_all_primitives(ray, collector);
+        traverse_boxes(tree_, cell_ray, [&](const BvhNode& leaf, double& last) {
+            if (test_primitives(primitives(), ray, &tree_.references[leaf.first], leaf.count, collector)) return true;
+            last = cell_ray.upper_end(collector.limit());
+            return false;
+        });
+    }
+
+private:
+    const BvhTree& tree_;
+};
+
 // The closest hit by the tree against the linear scan's.
 inline void expect_closest(Scene& scene, const BvhTree& tree, const Ray& ray) {
-    if (!PreparedRay::is_traceable(ray)) return;
-    const PreparedRay prepared(ray, scene.bounds());
-    ClosestVisitor visitor(scene.primitives(), prepared);
-    traverse_boxes(tree, prepared, visitor);
-    EXPECT_TRUE(same_hit(oracle::PlainScan(scene.input()).closest(prepared), visitor.best())) << text_of(ray);
+    if (!ray.is_traceable()) return;
+    const TreeAccel accel(scene.input(), tree);
+    EXPECT_TRUE(same_hit(oracle::PlainScan(scene.input()).closest(ray, {}), accel.closest(ray, {}))) << text_of(ray);
 }
 
 } // namespace raywise::bvh_testing

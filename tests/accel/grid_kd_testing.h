@@ -95,16 +95,15 @@ inline std::string describe(const Ray& ray) {
 template <class Structure>
 void compare(World& world, const Structure& structure, const Ray& ray, std::vector<PrimitiveHit>& hits) {
     hits.clear();
-    if (!PreparedRay::is_traceable(ray)) return;
-    const PreparedRay prepared(ray, world.bounds());
+    if (!ray.is_traceable()) return;
     const oracle::PlainScan judge(world.input());
-    EXPECT_TRUE(bits_equal(judge.closest(prepared), structure.closest(prepared)))
-        << "closest: " << judge.closest(prepared).primitive << " became " << structure.closest(prepared).primitive
-        << "; " << describe(ray);
-    EXPECT_EQ(judge.any(prepared), structure.any(prepared)) << "any: " << describe(ray);
+    EXPECT_TRUE(bits_equal(judge.closest(ray, {}), structure.closest(ray, {})))
+        << "closest: " << judge.closest(ray, {}).primitive << " became " << structure.closest(ray, {}).primitive << "; "
+        << describe(ray);
+    EXPECT_EQ(judge.any(ray, {}), structure.any(ray, {})) << "any: " << describe(ray);
     std::vector<PrimitiveHit> found;
-    judge.all(prepared, hits);
-    structure.all(prepared, found);
+    judge.all(ray, {}, hits);
+    structure.all(ray, {}, found);
     bool same = hits.size() == found.size();
     for (std::size_t i = 0; same && i < hits.size(); ++i) same = bits_equal(hits[i], found[i]);
     EXPECT_TRUE(same) << "all: " << hits.size() << " hits became " << found.size() << "; " << describe(ray);
@@ -117,9 +116,8 @@ std::size_t compare_with_windows(World& world, const Structure& structure, const
     std::vector<PrimitiveHit> ignored;
     compare(world, structure, ray, hits);
     if (hits.empty()) return 0;
-    const PreparedRay prepared(ray, world.bounds());
-    const double a = prepared.to_caller(hits.front().t);
-    const double b = prepared.to_caller(hits.back().t);
+    const double a = hits.front().t;
+    const double b = hits.back().t;
     const double windows[][2] = {{a, b},
                                  {a, a},
                                  {b, b},

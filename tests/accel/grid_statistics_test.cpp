@@ -1,4 +1,4 @@
-#include "accel/grid_statistics.h"
+#include "accel/grid/grid_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "accel/kd_tree.h"
+#include "accel/kdtree/kd_tree.h"
 
 #include "accel/grid_kd_testing.h"
 

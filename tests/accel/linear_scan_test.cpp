@@ -1,6 +1,6 @@
 // The linear scan against a plain loop over the exact test, bit for bit: read in place and gathered, ray by ray and many rays at a time,
 // at every level of vector instructions.
-#include "accel/linear_scan.h"
+#include "accel/scan/linear_scan.h"
 
 #include "accel/bvh_testing.h"
 #include "geometry/every_target.h"
@@ -72,41 +72,36 @@ std::unique_ptr<World> world_of(const Triangles& triangles, const Layout& layout
 // What the plain loop answers.
 struct Expected {
     std::vector<Ray> rays;
-    std::vector<SkipList> skips;
-    std::vector<PreparedRay> prepared;
-    std::vector<SurfaceHit> closest;
+    std::vector<Query> queries;
+    std::vector<PrimitiveHit> closest;
     std::vector<std::vector<PrimitiveHit>> all;
-    Box bounds;
 
-    Expected(World& world, const std::vector<Ray>& asked, SkipList skip = {}) : bounds(world.primitives().bounds()) {
+    Expected(World& world, const std::vector<Ray>& asked, const Query& query = {}) {
         const PlainScan plain(world.input());
         for (const Ray& ray : asked) {
-            if (!PreparedRay::is_traceable(ray)) continue;
+            if (!ray.is_traceable()) continue;
             rays.push_back(ray);
-            skips.push_back(skip);
-            prepared.emplace_back(ray, world.primitives().bounds(), skip);
-            closest.push_back(plain.closest(prepared.back()));
+            queries.push_back(query);
+            closest.push_back(plain.closest(ray, query));
             all.emplace_back();
-            plain.all(prepared.back(), all.back());
+            plain.all(ray, query, all.back());
         }
     }
     std::size_t hits() const {
         return static_cast<std::size_t>(
-            std::count_if(closest.begin(), closest.end(), [](const SurfaceHit& hit) { return hit.is_hit(); }));
+            std::count_if(closest.begin(), closest.end(), [](const PrimitiveHit& hit) { return hit.is_hit(); }));
     }
 };
 
-bool same_surface(const SurfaceHit& a, const SurfaceHit& b) {
-    return same_hit(a, b) && (!a.is_hit() || a.corners == b.corners);
-}
-
 void expect_answers(const LinearScan& scan, const Expected& expected) {
     for (std::size_t i = 0; i < expected.rays.size(); ++i) {
-        const PreparedRay& ray = expected.prepared[i];
-        ASSERT_TRUE(same_surface(scan.closest(ray), expected.closest[i])) << "closest: " << text_of(expected.rays[i]);
-        ASSERT_EQ(scan.any(ray), expected.closest[i].is_hit()) << "any: " << text_of(expected.rays[i]);
+        const Ray& ray = expected.rays[i];
+        const Query& query = expected.queries[i];
+        ASSERT_TRUE(same_hit(scan.closest(ray, query), expected.closest[i]))
+            << "closest: " << text_of(expected.rays[i]);
+        ASSERT_EQ(scan.any(ray, query), expected.closest[i].is_hit()) << "any: " << text_of(expected.rays[i]);
         std::vector<PrimitiveHit> all(1); // must be appended to, not replaced
-        scan.all(ray, all);
+        scan.all(ray, query, all);
         ASSERT_FALSE(all.empty() || all.front().is_hit());
         all.erase(all.begin());
         std::sort(all.begin(), all.end());
@@ -118,17 +113,16 @@ void expect_answers(const LinearScan& scan, const Expected& expected) {
     std::size_t size = 1;
     for (std::size_t begin = 0; begin < expected.rays.size(); begin += size, size = size * 2 + 1) {
         const std::size_t count = std::min(size, expected.rays.size() - begin);
-        const UnpreparedRays rays{&expected.rays[begin], &expected.skips[begin], count, expected.bounds};
+        const RayPacket rays{&expected.rays[begin], &expected.queries[begin], count};
         std::vector<PrimitiveHit> hits(count);
         for (PrimitiveHit& hit : hits) hit.t = hit.primitive = 0;
-        std::vector<Corners> corners(count);
         const auto found = std::make_unique<bool[]>(count);
         std::fill_n(found.get(), count, true);
         scratch.reset();
-        scan.closest_many(rays, {hits.data(), corners.data()}, scratch);
+        scan.closest_many(rays, hits.data(), scratch);
         scan.any_many(rays, found.get(), scratch);
         for (std::size_t i = 0; i < count; ++i) {
-            ASSERT_TRUE(same_surface({hits[i], corners[i]}, expected.closest[begin + i]))
+            ASSERT_TRUE(same_hit(hits[i], expected.closest[begin + i]))
                 << "closest of " << count << ": " << text_of(expected.rays[begin + i]);
             ASSERT_EQ(found[i], expected.closest[begin + i].is_hit())
                 << "any of " << count << ": " << text_of(expected.rays[begin + i]);
@@ -334,8 +328,8 @@ TEST(LinearScan, AnswersInAnInterval) {
         const Expected whole(*world, {ray});
         rays.push_back(ray);
         if (whole.all.empty() || whole.all[0].empty()) continue;
-        const double first = whole.prepared[0].to_caller(whole.all[0].front().t);
-        const double last = whole.prepared[0].to_caller(whole.all[0].back().t);
+        const double first = whole.all[0].front().t;
+        const double last = whole.all[0].back().t;
         const std::pair<double, double> intervals[] = {{first, last},
                                                        {first, first},
                                                        {std::nextafter(first, infinity), last},

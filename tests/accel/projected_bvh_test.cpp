@@ -1,4 +1,4 @@
-#include "accel/projected_bvh.h"
+#include "accel/projected/projected_bvh.h"
 
 #include "accel/bvh_testing.h"
 
@@ -67,10 +67,10 @@ Counts expect_same_answers(const Triangles& triangles, const ViewFrame& view, in
                                       : view_ray(view, interesting_point(triangles, bounds, random),
                                                  max_component(bounds.size()), random);
             const bool hit = i % 4 == 0 ? expect_same_with_intervals(scene, bvh, ray) : expect_same(scene, bvh, ray);
-            if (unrelated || !PreparedRay::is_traceable(ray)) continue;
+            if (unrelated || !ray.is_traceable()) continue;
             ++counts.rays;
             counts.hits += hit ? 1 : 0;
-            counts.projected += bvh.uses_projection(PreparedRay(ray, bounds)) ? 1 : 0;
+            counts.projected += bvh.uses_projection(ExactRay(ray)) ? 1 : 0;
         }
     }
     return counts;
@@ -136,7 +136,7 @@ TEST(ProjectedBvh, WithoutAView) {
     for (int i = 0; i < 200; ++i) {
         const Ray ray = any_ray(triangles, scene.bounds(), random);
         expect_same_with_intervals(scene, bvh, ray);
-        EXPECT_FALSE(bvh.uses_projection(PreparedRay(ray, scene.bounds())));
+        EXPECT_FALSE(bvh.uses_projection(ExactRay(ray)));
     }
 }
 
@@ -252,7 +252,7 @@ TEST(ProjectedBvh, FineDetailCloseToTheLight) {
         const double distance = std::sqrt(glm::dot(light - origin, light - origin));
         const Ray ray{origin, 0.0, through_float((light - origin) / distance), distance};
         hits += expect_same(scene, bvh, ray) ? 1 : 0;
-        projected += bvh.uses_projection(PreparedRay(ray, scene.bounds())) ? 1 : 0;
+        projected += bvh.uses_projection(ExactRay(ray)) ? 1 : 0;
     }
     EXPECT_GT(hits, rays / 4);
     EXPECT_GT(projected, rays / 2);
@@ -297,9 +297,7 @@ TEST(ProjectedBvh, ViewRaysAreProjected) {
     EXPECT_EQ(cube.plane_count(), 6u);
     EXPECT_EQ(camera.plane_count(), 1u);
     EXPECT_EQ(parallel.plane_count(), 1u);
-    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) {
-        return bvh.uses_projection(PreparedRay(ray, scene.bounds()));
-    };
+    const auto projects = [&](const ProjectedBvh& bvh, const Ray& ray) { return bvh.uses_projection(ExactRay(ray)); };
     for (int i = 0; i < 2000; ++i) {
         const Vec3 p = random.in_cube();
         EXPECT_TRUE(projects(cube, ray_between(eye, p)));
@@ -322,30 +320,36 @@ TEST(ProjectedBvh, ViewRaysAreProjected) {
     }
 }
 
+// Counts the primitives that are tested.
+struct CountingCollector {
+    ClosestCollector closest;
+    std::size_t tested = 0;
+
+    double limit() const { return closest.limit(); }
+};
+
+bool test_primitives(const Primitives& primitives, const ExactRay& ray, const std::uint32_t* list, std::size_t count,
+                     CountingCollector& collector) {
+    collector.tested += count;
+    return raywise::test_primitives(primitives, ray, list, count, collector.closest);
+}
+
 TEST(ProjectedBvh, VisitsFewTriangles) {
     // Pruned by depth, and no more planes than needed: a closest hit looks at a handful of triangles.
-    struct Counter {
-        ClosestVisitor visitor;
-        int count = 0;
-        bool visit(std::uint32_t primitive) {
-            ++count;
-            return visitor.visit(primitive);
-        }
-        double limit() const { return visitor.limit(); }
-    };
     const Triangles triangles = ball(60, 1.0);
     Scene scene(triangles);
     Random random(26);
     const Vec3 eye(3.0, 0.5, 0.2);
     const ProjectedBvh bvh(scene.input(around(eye)));
-    const int rays = 1000;
-    int total = 0;
-    for (int i = 0; i < rays; ++i) {
-        const PreparedRay ray(ray_between(eye, 0.7 * random.direction()), scene.bounds());
-        Counter counter{ClosestVisitor(scene.primitives(), ray)};
-        bvh.traverse(ray, counter);
-        EXPECT_TRUE(counter.visitor.best().is_hit());
-        total += counter.count;
+    const std::size_t rays = 1000;
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < rays; ++i) {
+        const Ray ray = ray_between(eye, 0.7 * random.direction());
+        const Query query;
+        CountingCollector counter{ClosestCollector(ray, query)};
+        bvh.traverse(ExactRay(ray), counter);
+        EXPECT_TRUE(counter.closest.best().is_hit());
+        total += counter.tested;
     }
     EXPECT_LT(total, 12 * rays);
     EXPECT_LT(bvh.bytes(), 200 * triangles.size());

@@ -1,4 +1,4 @@
-#include "accel/projection.h"
+#include "accel/projected/projection.h"
 
 #include "accel/bvh_testing.h"
 
@@ -9,10 +9,10 @@ namespace {
 
 using namespace bvh_testing;
 
-const Box unit_bounds{Vec3(-1.0), Vec3(1.0)};
+const SceneExtent unit_scene{{Vec3(-1.0), Vec3(1.0)}, 2.0, {}};
 
-PreparedRay prepared(const Vec3& origin, const Vec3& direction, double tmin = 0.0, double tmax = infinity) {
-    return PreparedRay({origin, tmin, direction, tmax}, unit_bounds);
+ExactRay exact(const Vec3& origin, const Vec3& direction, double tmin = 0.0, double tmax = infinity) {
+    return ExactRay({origin, tmin, direction, tmax});
 }
 
 bool overlap(const ProjectedRay& ray, const Footprint& footprint) {
@@ -49,24 +49,24 @@ TEST(FloatRounding, OutwardsAndClose) {
 
 TEST(ViewPlanes, AsManyAsTheViewNeeds) {
     const Vec3 eye(0.5, 0.5, 3.0);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, unit_bounds).planes().size(), 6u);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0, 0.0, -1.0), 0.4}, unit_bounds).planes().size(), 1u);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::direction, eye, Vec3(1.0, 0.0, 0.0), 0.0}, unit_bounds).planes().size(), 1u);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::direction, eye, Vec3(0.0), 0.0}, unit_bounds).planes().size(), 0u);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, Vec3(infinity), Vec3(0.0), 0.0}, unit_bounds).planes().size(), 0u);
-    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, Box{}).planes().size(), 0u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, unit_scene).planes().size(), 6u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0, 0.0, -1.0), 0.4}, unit_scene).planes().size(), 1u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::direction, eye, Vec3(1.0, 0.0, 0.0), 0.0}, unit_scene).planes().size(), 1u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::direction, eye, Vec3(0.0), 0.0}, unit_scene).planes().size(), 0u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, Vec3(infinity), Vec3(0.0), 0.0}, unit_scene).planes().size(), 0u);
+    EXPECT_EQ(ViewPlanes({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, SceneExtent{}).planes().size(), 0u);
 }
 
 TEST(ViewPlanes, ChoosesThePlaneTheRayPierces) {
     const Vec3 eye(0.1, 0.2, 0.3);
-    const ViewPlanes view({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, unit_bounds);
+    const ViewPlanes view({ViewFrame::Kind::point, eye, Vec3(0.0), 0.0}, unit_scene);
     Random random(2);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 d = random.direction();
-        const PreparedRay away = prepared(eye, d);
+        const ExactRay away = exact(eye, d);
         const int plane = view.choose(away);
         EXPECT_EQ(plane, 2 * away.major_axis + (d[away.major_axis] > 0.0 ? 0 : 1));
-        EXPECT_EQ(view.choose(prepared(eye + d, -d)), plane);
+        EXPECT_EQ(view.choose(exact(eye + d, -d)), plane);
         for (int other = 0; other < 6; ++other) {
             ProjectedRay projected;
             const bool takes = view.planes()[static_cast<std::size_t>(other)].project(away, projected);
@@ -86,8 +86,7 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
         const Vec3 eye = random.in_cube();
         const bool cube = round % 2 == 0;
         const ViewPlanes view(
-            {ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)},
-            unit_bounds);
+            {ViewFrame::Kind::point, eye, cube ? Vec3(0.0) : random.direction(), random.uniform(0.1, 1.5)}, unit_scene);
         for (int i = 0; i < 100; ++i) {
             const double size = std::ldexp(1.0, -random.integer(0, 20));
             const Vec3 middle = random.in_cube(0.5);
@@ -99,7 +98,7 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
             const double b = random.uniform(0.0, 1.0 - a);
             const Vec3 p = corners[0] + a * (corners[1] - corners[0]) + b * (corners[2] - corners[0]);
             if (p == eye) continue;
-            const PreparedRay ray = prepared(eye, p - eye);
+            const ExactRay ray = exact(eye, p - eye);
             const int choice = view.choose(ray);
             ASSERT_GE(choice, 0);
             const ProjectionPlane& plane = view.planes()[static_cast<std::size_t>(choice)];
@@ -116,7 +115,7 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
             projected.lower -= Vec2(slack);
             projected.upper += Vec2(slack);
             EXPECT_TRUE(overlap(projected, footprint)) << round << " " << i;
-            const double depth = projected.depth + ray.from_caller(1.0) * projected.depth_rate;
+            const double depth = projected.depth + ray.scale.from_caller(1.0) * projected.depth_rate;
             EXPECT_LE(footprint.near, depth + projected.depth_error);
             EXPECT_GE(footprint.far, depth - projected.depth_error);
         }
@@ -125,7 +124,7 @@ TEST(Footprint, HoldsWhatRaysFromThePointMeet) {
 
 TEST(Footprint, IsTheTrianglesOwnNotItsBoxs) {
     // Seen from the diagonal; the box's projection would be a hexagon three times as wide as this sliver.
-    const ViewPlanes view({ViewFrame::Kind::point, Vec3(3.0), Vec3(-1.0), 0.5}, unit_bounds);
+    const ViewPlanes view({ViewFrame::Kind::point, Vec3(3.0), Vec3(-1.0), 0.5}, unit_scene);
     const Footprint footprint = view.planes()[0].footprint({Vec3(-1.0), Vec3(1.0), Vec3(1.0, 1.0, 0.99)});
     EXPECT_LT(footprint.upper.x - footprint.lower.x, 0.01);
     EXPECT_LT(footprint.upper.y - footprint.lower.y, 0.01);
@@ -134,7 +133,7 @@ TEST(Footprint, IsTheTrianglesOwnNotItsBoxs) {
 }
 
 TEST(Footprint, TrianglesBehindOrBesideThePyramidAreLeftOut) {
-    const ViewPlanes view({ViewFrame::Kind::point, Vec3(0.0), Vec3(0.0), 0.0}, unit_bounds);
+    const ViewPlanes view({ViewFrame::Kind::point, Vec3(0.0), Vec3(0.0), 0.0}, unit_scene);
     const auto planes_of = [&](const Corners& corners) {
         std::string planes;
         for (const ProjectionPlane& plane : view.planes()) planes += plane.footprint(corners).empty() ? '-' : 'x';
@@ -150,7 +149,7 @@ TEST(Footprint, TrianglesBehindOrBesideThePyramidAreLeftOut) {
 }
 
 TEST(Footprint, AFloorUnderThePointHasAHorizon) {
-    const ViewPlanes view({ViewFrame::Kind::point, Vec3(0.0), Vec3(0.0), 0.0}, unit_bounds);
+    const ViewPlanes view({ViewFrame::Kind::point, Vec3(0.0), Vec3(0.0), 0.0}, unit_scene);
     const Corners floor = {Vec3(-1.0, -0.5, -1.0), Vec3(1.0, -0.5, -1.0), Vec3(0.0, -0.5, 1.0)};
     // Through the plane +x the floor ends below the horizon and begins where the pyramid meets it.
     const Footprint footprint = view.planes()[0].footprint(floor);
@@ -166,13 +165,13 @@ TEST(Footprint, AlongADirection) {
     Random random(4);
     for (int round = 0; round < 200; ++round) {
         const Vec3 direction = std::ldexp(1.0, random.integer(-60, 60)) * random.direction();
-        const ViewPlanes view({ViewFrame::Kind::direction, Vec3(0.0), direction, 0.0}, unit_bounds);
+        const ViewPlanes view({ViewFrame::Kind::direction, Vec3(0.0), direction, 0.0}, unit_scene);
         for (int i = 0; i < 50; ++i) {
             const Corners corners = {random.in_cube(), random.in_cube(), random.in_cube()};
             const double a = random.uniform(0.0, 1.0);
             const double b = random.uniform(0.0, 1.0 - a);
             const Vec3 p = corners[0] + a * (corners[1] - corners[0]) + b * (corners[2] - corners[0]);
-            const PreparedRay ray = prepared(p, i % 2 == 0 ? direction : -direction);
+            const ExactRay ray = exact(p, i % 2 == 0 ? direction : -direction);
             ProjectedRay projected;
             ASSERT_EQ(view.choose(ray), 0);
             ASSERT_TRUE(view.planes()[0].project(ray, projected));
@@ -193,17 +192,17 @@ TEST(ProjectedRay, HoldsTheRayBeyondTheCut) {
     int taken = 0;
     for (int i = 0; i < 5000; ++i) {
         const Vec3 light = through_float(3.0 * random.in_cube());
-        const ViewPlanes view({ViewFrame::Kind::point, light, Vec3(0.0), 0.0}, unit_bounds);
+        const ViewPlanes view({ViewFrame::Kind::point, light, Vec3(0.0), 0.0}, unit_scene);
         const Vec3 p = through_float(random.in_cube());
         const Vec3 d = through_float(light - p);
-        const PreparedRay ray = prepared(p, d, 0.0, 1.0);
+        const ExactRay ray = exact(p, d, 0.0, 1.0);
         const ProjectionPlane& plane = view.planes()[static_cast<std::size_t>(view.choose(ray))];
         ProjectedRay projected;
         if (!plane.project(ray, projected)) continue;
         ++taken;
         for (int k = 0; k < 20; ++k) {
             const double t = random.uniform(0.0, 1.0);
-            const double depth = projected.depth + ray.from_caller(t) * projected.depth_rate;
+            const double depth = projected.depth + ray.scale.from_caller(t) * projected.depth_rate;
             if (depth < projected.cut || depth < 1e-3) continue;
             // The footprint of the point itself.
             const Vec3 q = p + t * d;
@@ -217,28 +216,28 @@ TEST(ProjectedRay, HoldsTheRayBeyondTheCut) {
 
 TEST(ProjectedRay, OnlyRaysOfTheView) {
     const Vec3 eye(0.0, 0.0, 4.0);
-    const ViewPlanes view({ViewFrame::Kind::point, eye, Vec3(0.0, 0.0, -1.0), 0.5}, unit_bounds);
-    const auto takes = [&](const PreparedRay& ray) {
+    const ViewPlanes view({ViewFrame::Kind::point, eye, Vec3(0.0, 0.0, -1.0), 0.5}, unit_scene);
+    const auto takes = [&](const ExactRay& ray) {
         ProjectedRay projected;
         return view.planes()[0].project(ray, projected);
     };
     const Vec3 ahead(0.1, 0.1, -1.0);
-    EXPECT_TRUE(takes(prepared(eye, ahead)));
-    EXPECT_TRUE(takes(prepared(eye, ahead, 0.5, 7.0)));
-    EXPECT_TRUE(takes(prepared(eye + 5.0 * ahead, -ahead, 0.0, 5.0)));
-    EXPECT_FALSE(takes(prepared(eye, -ahead)));               // away
-    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, -1.0)))); // past the plane
-    EXPECT_FALSE(takes(prepared(eye, Vec3(1.0, 0.0, 0.0))));  // along it
-    EXPECT_FALSE(takes(prepared(eye, ahead, -1.0)));          // from behind the eye
-    EXPECT_FALSE(takes(prepared(eye, ahead, -infinity)));
-    EXPECT_FALSE(takes(prepared(eye + 5.0 * ahead, -ahead)));         // beyond the eye
-    EXPECT_FALSE(takes(prepared(eye + Vec3(0.01, 0.0, 0.0), ahead))); // beside it
-    const ViewPlanes sun({ViewFrame::Kind::direction, Vec3(0.0), Vec3(0.0, 0.0, -1.0), 0.0}, unit_bounds);
+    EXPECT_TRUE(takes(exact(eye, ahead)));
+    EXPECT_TRUE(takes(exact(eye, ahead, 0.5, 7.0)));
+    EXPECT_TRUE(takes(exact(eye + 5.0 * ahead, -ahead, 0.0, 5.0)));
+    EXPECT_FALSE(takes(exact(eye, -ahead)));               // away
+    EXPECT_FALSE(takes(exact(eye, Vec3(1.0, 0.0, -1.0)))); // past the plane
+    EXPECT_FALSE(takes(exact(eye, Vec3(1.0, 0.0, 0.0))));  // along it
+    EXPECT_FALSE(takes(exact(eye, ahead, -1.0)));          // from behind the eye
+    EXPECT_FALSE(takes(exact(eye, ahead, -infinity)));
+    EXPECT_FALSE(takes(exact(eye + 5.0 * ahead, -ahead)));         // beyond the eye
+    EXPECT_FALSE(takes(exact(eye + Vec3(0.01, 0.0, 0.0), ahead))); // beside it
+    const ViewPlanes sun({ViewFrame::Kind::direction, Vec3(0.0), Vec3(0.0, 0.0, -1.0), 0.0}, unit_scene);
     ProjectedRay projected;
-    EXPECT_TRUE(sun.planes()[0].project(prepared(eye, Vec3(0.0, 0.0, 1.0), -infinity), projected));
-    EXPECT_TRUE(sun.planes()[0].project(prepared(eye, Vec3(1e-9, 0.0, 1.0)), projected));
-    EXPECT_FALSE(sun.planes()[0].project(prepared(eye, Vec3(0.1, 0.0, 1.0)), projected));
-    EXPECT_FALSE(sun.planes()[0].project(prepared(Vec3(1e300), Vec3(0.0, 0.0, 1.0)), projected));
+    EXPECT_TRUE(sun.planes()[0].project(exact(eye, Vec3(0.0, 0.0, 1.0), -infinity), projected));
+    EXPECT_TRUE(sun.planes()[0].project(exact(eye, Vec3(1e-9, 0.0, 1.0)), projected));
+    EXPECT_FALSE(sun.planes()[0].project(exact(eye, Vec3(0.1, 0.0, 1.0)), projected));
+    EXPECT_FALSE(sun.planes()[0].project(exact(Vec3(1e300), Vec3(0.0, 0.0, 1.0)), projected));
 }
 
 } // namespace

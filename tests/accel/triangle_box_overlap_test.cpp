@@ -1,4 +1,4 @@
-#include "accel/triangle_box_overlap.h"
+#include "geometry/triangle_box_overlap.h"
 
 #include "accel/grid_kd_testing.h"
 

@@ -1,4 +1,4 @@
-#include "accel/uniform_grid.h"
+#include "accel/grid/uniform_grid.h"
 
 #include "accel/grid_kd_testing.h"
 

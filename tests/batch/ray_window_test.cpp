@@ -16,6 +16,18 @@ using namespace testing;
 
 bool same_bits(const Ray& a, const Ray& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+// Two triangles across the unit box, whose normals differ.
+Primitives make_primitives() {
+    static const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 1, 1, 0, 0, 1};
+    TriangleArrays arrays;
+    arrays.vertex_count = 6;
+    arrays.triangle_count = 2;
+    arrays.vertices = {reinterpret_cast<const std::byte*>(vertices), 12, 4, Scalar::float32};
+    return Primitives({std::make_shared<const TriangleMesh>(arrays, true, false)});
+}
+const Primitives primitives = make_primitives();
+const BatchWatch unwatched;
+
 // Reads all rays of a window, part by part, and looks whether each comes once.
 void expect_all_of(RayWindow& window, const std::vector<Ray>& rays, std::uint64_t first, std::size_t count) {
     std::set<std::uint64_t> seen;
@@ -46,7 +58,8 @@ TEST(RayWindow, HasEveryRayOnce) {
     const RayArrays arrays = arrays_of(rays);
     for (const unsigned threads : {1u, 3u}) {
         const Parallel parallel(threads);
-        RayWindow window(arrays, unit_box, parallel);
+        BatchProgress progress(unwatched, rays.size(), parallel);
+        RayWindow window(arrays, primitives, parallel, progress);
         window.move_to(0, 20000, true);
         EXPECT_FALSE(is_in_callers_order(window.elements()));
         expect_all_of(window, rays, 0, 20000);
@@ -64,7 +77,8 @@ TEST(RayWindow, LeavesRaysOfACameraInTheirOrder) {
     const std::vector<Ray> rays = camera_rays(400, 100);
     const RayArrays arrays = arrays_of(rays);
     const Parallel parallel(2);
-    RayWindow window(arrays, unit_box, parallel);
+    BatchProgress progress(unwatched, rays.size(), parallel);
+    RayWindow window(arrays, primitives, parallel, progress);
     window.move_to(0, rays.size(), true);
     EXPECT_TRUE(is_in_callers_order(window.elements()));
 }
@@ -75,7 +89,8 @@ TEST(RayWindow, CountsRaysWithANaNOnce) {
     const RayArrays arrays = arrays_of(rays);
     const Parallel parallel(2);
     for (const bool in_order : {false, true}) {
-        RayWindow window(arrays, unit_box, parallel);
+        BatchProgress progress(unwatched, rays.size(), parallel);
+        RayWindow window(arrays, primitives, parallel, progress);
         window.move_to(0, rays.size(), in_order);
         expect_all_of(window, rays, 0, rays.size());
         EXPECT_EQ(window.invalid(), 1000u);
@@ -89,10 +104,13 @@ TEST(RayWindow, WritesHitsToTheirRays) {
     for (const bool in_order : {false, true}) {
         std::vector<double> t(rays.size(), -1.0);
         std::vector<std::uint32_t> primitive(rays.size(), 7);
+        std::vector<Vec3> normal(rays.size(), Vec3(5.0));
         HitArrays hits;
         hits.t = {reinterpret_cast<std::byte*>(t.data()), 8, 8, Scalar::float64};
         hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
-        RayWindow window(arrays, unit_box, parallel);
+        hits.normal = {reinterpret_cast<std::byte*>(normal.data()), sizeof(Vec3), 8, Scalar::float64};
+        BatchProgress progress(unwatched, rays.size(), parallel);
+        RayWindow window(arrays, primitives, parallel, progress);
         const std::uint64_t first = 100;
         const std::size_t count = 9800;
         window.move_to(first, count, in_order);
@@ -103,7 +121,9 @@ TEST(RayWindow, WritesHitsToTheirRays) {
             std::vector<Hit> found(part.count());
             for (std::size_t k = 0; k < part.count(); ++k) {
                 found[k].t = read[k].origin.x;
-                found[k].primitive = static_cast<std::uint32_t>(part[k]);
+                if (part[k] % 3 == 2) continue; // a miss
+                found[k].geometry = 0;
+                found[k].primitive = static_cast<std::uint32_t>(part[k] % 3);
             }
             window.write(part, found.data(), hits);
         }
@@ -111,7 +131,9 @@ TEST(RayWindow, WritesHitsToTheirRays) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool within = i >= first && i < first + count;
             ASSERT_EQ(t[i], within ? rays[i].origin.x : -1.0) << i;
-            ASSERT_EQ(primitive[i], within ? i : 7u) << i;
+            ASSERT_EQ(primitive[i], !within ? 7u : i % 3 == 2 ? invalid_id : i % 3) << i;
+            const Vec3 right = i % 3 == 2 ? Vec3(0.0) : unit_normal(primitives.corners(i % 3));
+            ASSERT_EQ(normal[i], within ? right : Vec3(5.0)) << i;
         }
     }
 }

@@ -1,8 +1,8 @@
 // Rays that the tests of batches share.
 #pragma once
 
-#include "base/ray.h"
 #include "batch/ray_arrays.h"
+#include "ray/ray.h"
 
 #include <cstddef>
 #include <iterator>

@@ -26,8 +26,7 @@ namespace {
 
 struct CommandLine {
     Options options;
-    std::string library;
-    SubjectFiles subject_files{"libembree3.so.3", {}};
+    SubjectFiles subject_files{{}, {}, "libembree3.so.3", {}};
     SceneFiles scene_files;
     std::string json;
     std::string commit;
@@ -75,34 +74,33 @@ Report report_of(const Session& session, const TakingPart& all, const CommandLin
 std::vector<std::string> own_command(const CommandLine& line) {
     return {"/proc/" + std::to_string(::getpid()) + "/exe",
             "--library",
-            line.library,
+            line.subject_files.ours,
             "--embree3",
             line.subject_files.embree3,
             "--embree4",
             line.subject_files.embree4};
 }
 
-void run(const CommandLine& line) {
-    TakingPart all = who_takes_part(line.library, line.subject_files, line.options.subjects, line.options.quick);
+// Returns whether all checks held.
+bool run(const CommandLine& line) {
+    TakingPart all = who_takes_part(line.subject_files, line.options.subjects, line.options.quick);
     if (line.list) {
         for (const auto& subject : all.subjects) std::printf("%s\n", subject->name().c_str());
+        for (const auto& subject : all.avx2) std::printf("%s, AVX2\n", subject->name().c_str());
+        for (const auto& subject : all.yardstick) std::printf("%s\n", subject->name().c_str());
         for (const std::string& reason : all.left_out) std::printf("left out: %s\n", reason.c_str());
-        return;
+        return true;
     }
     if (!line.memory_of.empty()) {
         for (const auto& subject : all.subjects)
-            if (subject->name() == line.memory_of) return print_memory(*subject, line.stored_mesh);
+            if (subject->name() == line.memory_of) {
+                print_memory(*subject, line.stored_mesh);
+                return true;
+            }
         throw std::runtime_error("nobody is called " + line.memory_of);
     }
-    Session session{line.options,
-                    effort_of(line.options),
-                    *all.ours,
-                    all.subjects,
-                    this_machine().threads,
-                    own_command(line),
-                    {},
-                    {},
-                    {}};
+    Session session{line.options,           effort_of(line.options), *all.ours, all.subjects, all.yardstick, all.avx2,
+                    this_machine().threads, own_command(line),       {},        {},           false,         {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {
         if (line.options.scenes.empty() ? row.quick || !line.options.quick : wanted(line.options.scenes, row.name))
@@ -117,19 +115,20 @@ void run(const CommandLine& line) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto at = [&](std::size_t part) { return static_cast<double>(i * parts.size() + part) / steps; };
         progress.show(at(0), std::string(rows[i]->name) + ", making the scene");
-        workloads::Mesh mesh;
+        TestScene test_scene;
         try {
-            mesh = make_scene(*rows[i], line.options.quick, *all.ours, line.scene_files);
+            test_scene = make_scene(*rows[i], line.options.quick, *all.ours, line.scene_files);
         } catch (const MissingFile& missing) {
             all.left_out.push_back(std::string("scene ") + rows[i]->name + ": there is no " + missing.what());
             continue;
         }
-        SceneUnderTest scene(session, rows[i]->name, std::move(mesh));
+        SceneUnderTest scene(session, rows[i]->name, std::move(test_scene));
         if (!line.export_folder.empty()) {
-            export_scene(scene, line.export_folder);
+            if (!rows[i]->far_apart) export_scene(scene, line.export_folder);
             continue;
         }
         for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (rows[i]->far_apart && !parts[part]->far_apart) continue;
             session.show_progress = [&](const std::string& what) {
                 progress.show(at(part), scene.name() + ", " + what);
             };
@@ -140,7 +139,7 @@ void run(const CommandLine& line) {
         if (!line.json.empty()) save(report_of(session, all, line), line.json);
     }
     progress.finish();
-    if (!line.export_folder.empty()) return;
+    if (!line.export_folder.empty()) return true;
 
     const Machine& machine = this_machine();
     std::printf("%s, %u threads, %s\n", machine.brand.c_str(), machine.threads, machine.instruction_set.c_str());
@@ -152,6 +151,7 @@ void run(const CommandLine& line) {
     for (const std::string& reason : all.left_out) std::printf("left out: %s\n", reason.c_str());
     for (const std::string& warning : session.warnings) std::printf("warning: %s\n", warning.c_str());
     if (!line.json.empty()) save(report, line.json);
+    return !session.failed;
 }
 
 int main_of(int argc, char** argv) {
@@ -161,7 +161,9 @@ int main_of(int argc, char** argv) {
         "in processor time, several in wall time.");
     CommandLine line;
     Options& options = line.options;
-    app.add_option("--library", line.library, "libraywise.so")->required()->type_name("FILE");
+    app.add_option("--library", line.subject_files.ours, "libraywise.so")->required()->type_name("FILE");
+    app.add_option("--library-avx2", line.subject_files.ours_avx2, "the same, compiled to use AVX2 and nothing wider")
+        ->type_name("FILE");
     app.add_option("--embree3", line.subject_files.embree3, "libembree3.so")->type_name("FILE")->capture_default_str();
     app.add_option("--embree4", line.subject_files.embree4, "libembree4.so")->type_name("FILE");
     app.add_option("--meshes", line.scene_files.meshes, "folder with stanford-bunny.obj and igea.ply");
@@ -194,8 +196,7 @@ int main_of(int argc, char** argv) {
     }
     // The same choices whatever profiles lie around, unless one is asked for.
     ::setenv("RAYWISE_CALIBRATION", "builtin", 0);
-    run(line);
-    return 0;
+    return run(line) ? 0 : 1;
 }
 
 } // namespace

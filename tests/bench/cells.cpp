@@ -35,6 +35,7 @@ nlohmann::ordered_json rows_of(const Cells& cells) {
                 {"value", ours.value},     {"spread", ours.spread}, {"repetitions", ours.repetitions},
             };
             if (!ours.structure.empty()) row["structure"] = ours.structure;
+            if (!ours.instruction_set.empty()) row["instruction_set"] = ours.instruction_set;
             if (ours.hit_rate >= 0.0) row["hit_rate"] = ours.hit_rate;
             if (ours.extrapolated) row["extrapolated"] = true;
             if (ours.told >= 0.0) row["told"] = ours.told;
@@ -49,6 +50,7 @@ nlohmann::ordered_json rows_of(const Cells& cells) {
                 pair["peer"] = peer.subject;
                 pair["peer_value"] = peer.value;
                 pair["peer_spread"] = peer.spread;
+                if (!peer.instruction_set.empty()) pair["peer_instruction_set"] = peer.instruction_set;
                 if (peer.extrapolated) pair["peer_extrapolated"] = true;
                 if (peer.told >= 0.0) pair["peer_told"] = peer.told;
                 pair["ratio"] = cell.ratio(ours, peer);

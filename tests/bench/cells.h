@@ -20,7 +20,8 @@ struct Value {
     double hit_rate = -1.0;    // negative: no rays were counted
     std::string structure;     // what raywise chose
     bool extrapolated = false; // from a measured rate
-    double told = -1.0;        // of memory: what the library itself says; negative: nothing
+    std::string instruction_set;
+    double told = -1.0; // of memory: what the library itself says; negative: nothing
 };
 
 struct Cell {

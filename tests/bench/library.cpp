@@ -38,21 +38,4 @@ void Library::check(std::int32_t status) const {
     if (status != RW_OK) throw std::runtime_error(name_ + ": " + this->rw_last_error_message());
 }
 
-BuiltScene::BuiltScene(const Library& library, const workloads::Mesh& mesh, const char* structure)
-    : library_(library), scene_(nullptr, library.rw_scene_release) {
-    rw_scene* scene = nullptr;
-    library.check(library.rw_scene_create(nullptr, &scene));
-    scene_.reset(scene);
-    rw_triangles triangles{};
-    triangles.struct_size = sizeof triangles;
-    triangles.flags = RW_TRIANGLES_SHARED;
-    triangles.vertex_count = mesh.vertex_count();
-    triangles.vertices.data = mesh.vertices.data();
-    triangles.triangle_count = mesh.triangle_count();
-    triangles.indices.data = mesh.indices.data();
-    library.check(library.rw_scene_add_triangles(scene, &triangles, nullptr));
-    library.check(library.rw_scene_set_structure(scene, structure));
-    library.check(library.rw_scene_commit(scene, nullptr));
-}
-
 } // namespace raywise::bench

@@ -27,6 +27,7 @@ namespace raywise::bench {
     X(rw_scene_get_statistics)    \
     X(rw_scene_intersect)         \
     X(rw_scene_occluded)          \
+    X(rw_scene_normal)            \
     X(rw_scene_intersect_batch)   \
     X(rw_scene_occluded_batch)
 
@@ -47,20 +48,6 @@ public:
 
 private:
     std::string name_;
-};
-
-// A committed scene with a forced structure.
-class BuiltScene {
-public:
-    // The mesh is used in place and has to outlive the scene.
-    BuiltScene(const Library& library, const workloads::Mesh& mesh, const char* structure);
-
-    const Library& library() const { return library_; }
-    const rw_scene* handle() const { return scene_.get(); }
-
-private:
-    const Library& library_;
-    std::unique_ptr<rw_scene, decltype(&::rw_scene_release)> scene_;
 };
 
 } // namespace raywise::bench

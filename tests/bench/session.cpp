@@ -1,5 +1,6 @@
 #include "bench/session.h"
 
+#include "bench/surface_points.h"
 #include "bench/table.h"
 
 #include "rays/rays.h"
@@ -71,13 +72,26 @@ bool Session::fits(const Subject& subject, std::uint64_t triangles) const {
     return !subject.traits().slow || triangles <= effort.slow_triangles;
 }
 
-SceneUnderTest::SceneUnderTest(Session& session, std::string name, workloads::Mesh mesh)
-    : session_(session), name_(std::move(name)), mesh_(std::move(mesh)) {}
+SceneUnderTest::SceneUnderTest(Session& session, std::string name, TestScene scene)
+    : session_(session), name_(std::move(name)), scene_(std::move(scene)) {}
+
+bool SceneUnderTest::has_rays(std::size_t kind) const {
+    return scene_.rays_from_height == 0.0 || std::string(workloads::ray_distributions()[kind].name) == "random";
+}
+
+void SceneUnderTest::release(const Subjects& subjects) {
+    for (auto place = built_.begin(); place != built_.end();) {
+        const bool listed = std::any_of(subjects.begin(), subjects.end(),
+                                        [&](const auto& subject) { return subject.get() == place->first.first; });
+        place = listed ? built_.erase(place) : std::next(place);
+    }
+}
 
 const Built& SceneUnderTest::built(const Subject& subject, std::size_t kind) {
     std::unique_ptr<Built>& built = built_[{&subject, subject.traits().chooses ? kind : 0}];
     if (!built) {
-        BuildRequest request{mesh_};
+        BuildRequest request{scene_.mesh};
+        request.offset = scene_.offset;
         request.threads = session_.all_threads;
         request.kind = kind;
         built = subject.build(request);
@@ -88,26 +102,21 @@ const Built& SceneUnderTest::built(const Subject& subject, std::size_t kind) {
 RaySet SceneUnderTest::rays(std::size_t kind, std::uint64_t count) {
     const Subject& tracer = *session_.subjects.front();
     const auto closest = [&](const workloads::Rays& asked) {
-        const RaySet rays = rounded(asked);
-        Answers answers;
-        QueryRequest request{rays};
-        request.call = Call::batch;
-        request.threads = session_.all_threads;
-        request.answers = &answers;
-        built(tracer, 0).query(request)->ask(0, rays.size());
-        std::vector<workloads::SurfacePoint> points(rays.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].t = static_cast<double>(answers.t[i]);
-            if (std::isinf(points[i].t)) continue;
-            const auto corner = [&](std::size_t k) {
-                const std::size_t vertex = 3 * std::size_t{mesh_.indices[3 * std::size_t{answers.primitive[i]} + k]};
-                return Vec3(mesh_.vertices[vertex], mesh_.vertices[vertex + 1], mesh_.vertices[vertex + 2]);
-            };
-            points[i].normal = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-        }
-        return points;
+        return surface_points(scene_.mesh, built(tracer, 0), asked, session_.all_threads);
     };
-    return rounded(workloads::ray_distributions()[kind].make({mesh_, count, ray_seed, closest}));
+    const workloads::Mesh& aimed_at = scene_.aimed_at ? *scene_.aimed_at : scene_.mesh;
+    RaySet rays = rounded(workloads::ray_distributions()[kind].make({aimed_at, count, ray_seed, closest}));
+    if (scene_.rays_from_height > 0.0) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            // From the sphere around the scene to its inner half.
+            rays.origin[3 * i] *= 0.5F;
+            rays.origin[3 * i + 1] *= 0.5F;
+            rays.origin[3 * i + 2] = static_cast<float>(scene_.rays_from_height);
+            rays.direction[3 * i] = rays.direction[3 * i + 1] = 0.0F;
+            rays.direction[3 * i + 2] = -1.0F;
+        }
+    }
+    return rays;
 }
 
 Cell SceneUnderTest::cell(const char* section, const char* rays, Question question) const {
@@ -144,6 +153,7 @@ void time_rays(SceneUnderTest& scene, Cell& cell, std::vector<Entry>& entries,
         value.repetitions = timings[i].repetitions;
         value.hit_rate = static_cast<double>(hits[i]) / static_cast<double>(entry.rays);
         value.structure = entry.structure;
+        value.instruction_set = entry.subject->traits().instruction_set;
         cell.values.push_back(std::move(value));
     }
     compare_hits(scene.session(), cell, entries, hits);

@@ -50,10 +50,13 @@ struct Session {
     Effort effort;
     const Library& library;
     const Subjects& subjects;
+    const Subjects& yardstick; // as in TakingPart, as is avx2
+    const Subjects& avx2;
     unsigned all_threads;
     std::vector<std::string> own_command; // runs this program again with the same libraries
     Cells cells;
     std::vector<std::string> warnings;
+    bool failed = false; // a check, which a warning tells about
     std::function<void(const std::string& what)> show_progress;
 
     bool wants_rays(const std::string& kind) const;
@@ -65,15 +68,19 @@ struct Session {
 // A scene, and what is made for it once: each subject's structure and the rays.
 class SceneUnderTest {
 public:
-    SceneUnderTest(Session& session, std::string name, workloads::Mesh mesh);
+    SceneUnderTest(Session& session, std::string name, TestScene scene);
 
     Session& session() const { return session_; }
     const std::string& name() const { return name_; }
-    const workloads::Mesh& mesh() const { return mesh_; }
-    std::uint64_t triangles() const { return mesh_.triangle_count(); }
+    const workloads::Mesh& mesh() const { return scene_.mesh; }
+    std::uint64_t triangles() const { return scene_.mesh.triangle_count(); }
+    // Whether rays of that kind (of workloads::ray_distributions()) can be had.
+    bool has_rays(std::size_t kind) const;
 
     // Built with all threads when it is asked for first, and kept. kind: of workloads::ray_distributions().
     const Built& built(const Subject& subject, std::size_t kind);
+    // Gives back what was built for these.
+    void release(const Subjects& subjects);
     RaySet rays(std::size_t kind, std::uint64_t count);
     // A cell with the scene's columns filled in.
     Cell cell(const char* section, const char* rays, Question question) const;
@@ -81,7 +88,7 @@ public:
 private:
     Session& session_;
     std::string name_;
-    workloads::Mesh mesh_;
+    TestScene scene_;
     std::map<std::pair<const Subject*, std::size_t>, std::unique_ptr<Built>> built_;
 };
 

@@ -1,6 +1,7 @@
 #include "bench/summary.h"
 
 #include "bench/report.h"
+#include "bench/subjects/yardstick_subject.h"
 #include "bench/table.h"
 
 #include <algorithm>
@@ -29,6 +30,9 @@ const std::vector<Figure>& figures() {
         {"single_camera", "single", {"camera"}, "closest", ours_forced, nullptr, false, 1},
         {"single_vs_robust", "single", {"random", "diffuse", "shadow"}, nullptr, ours_forced, nullptr, true, 1},
         {"single_chosen", "single", {"random", "diffuse", "shadow"}, nullptr, ours_chosen, nullptr, false, 1},
+        {"single_avx2", "single_avx2", {}, nullptr, ours_forced, nullptr, false, 1},
+        {"yardstick", "single", {}, nullptr, yardstick_name, nullptr, false, 1},
+        {"yardstick_avx2", "single_avx2", {}, nullptr, yardstick_name, nullptr, false, 1},
         {"batch_incoherent", "batch", {"random", "diffuse"}, nullptr, ours_forced, nullptr, false, 1},
         {"batch_coherent", "batch", {"camera", "shadow"}, nullptr, ours_forced, nullptr, false, 1},
         {"batch_coherent_shuffled", "batch", {"camera", "shadow"}, nullptr, "raywise bvh, shuffled", nullptr, false, 1},
@@ -118,6 +122,21 @@ nlohmann::ordered_json linear_scan(const Session& session) {
     return by_query;
 }
 
+// What a ray that misses the box costs, in ns, and how much of that Embree does without.
+nlohmann::ordered_json overhead(const Session& session) {
+    nlohmann::ordered_json by_query = nlohmann::ordered_json::object();
+    for (const Cell& cell : session.cells) {
+        const Value* const ours = cell.of(ours_forced);
+        const Value* const peer = cell.best_peer();
+        if (cell.section != "overhead" || ours == nullptr || peer == nullptr) continue;
+        by_query[cell.query] = {{"ours", ours->value},
+                                {"best_peer", peer->value},
+                                {"peer", peer->subject},
+                                {"beyond", ours->value - peer->value}};
+    }
+    return by_query;
+}
+
 } // namespace
 
 nlohmann::ordered_json summary_of(const Session& session) {
@@ -126,6 +145,7 @@ nlohmann::ordered_json summary_of(const Session& session) {
     summary["build_scaling"] = build_scaling(session);
     summary["bytes_per_triangle"] = {{"steady", bytes(session, "steady")}, {"peak", bytes(session, "peak")}};
     summary["totals"] = totals(session);
+    summary["overhead"] = overhead(session);
     summary["linear_scan"] = linear_scan(session);
     return summary;
 }

@@ -1,8 +1,10 @@
-// bench_triangle_test: what the exact triangle test costs, as single-ray throughput against the same library with other
-// triangle tests. All in one process, taking turns; the structures they build are alike.
+// bench_triangle_test: what the exact triangle test costs, as single-ray throughput against the same library with another
+// triangle test. All in one process, taking turns; the structures they build are alike.
 #include "bench/library.h"
 #include "bench/meshes.h"
 #include "bench/report.h"
+#include "bench/subjects/raywise_subject.h"
+#include "bench/surface_points.h"
 
 #include "measure/timing.h"
 #include "rays/rays.h"
@@ -48,50 +50,6 @@ Effort effort_of(bool quick) {
             {"sphereflake", "terrain", "soup", "sticks", "stadium", "interior"},
             {"teapot.obj", "stanford-bunny.obj", "igea.ply"},
             {20 * ms, 11, 5000 * ms}};
-}
-
-// Rays as the single calls want them.
-std::vector<rw_ray> packed(const workloads::Rays& rays) {
-    std::vector<rw_ray> result(rays.size());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            result[i].origin[axis] = rays.origin[3 * i + axis];
-            result[i].direction[axis] = rays.direction[3 * i + axis];
-        }
-        result[i].tmin = rays.tmin[i];
-        result[i].tmax = rays.tmax[i];
-    }
-    return result;
-}
-
-std::vector<workloads::SurfacePoint> closest(const BuiltScene& scene, const workloads::Rays& rays) {
-    std::vector<workloads::SurfacePoint> points;
-    for (const rw_ray& ray : packed(rays)) {
-        rw_hit hit;
-        scene.library().check(scene.library().rw_scene_intersect(scene.handle(), &ray, &hit));
-        points.push_back({hit.t, Vec3(hit.normal[0], hit.normal[1], hit.normal[2])});
-    }
-    return points;
-}
-
-// Asks ray after ray in single calls.
-std::uint64_t ask(const BuiltScene& scene, const std::vector<rw_ray>& rays, bool any_hit) {
-    const Library& library = scene.library();
-    std::uint64_t hits = 0;
-    if (any_hit) {
-        for (const rw_ray& ray : rays) {
-            std::int32_t occluded = 0;
-            library.rw_scene_occluded(scene.handle(), &ray, &occluded);
-            hits += occluded != 0 ? 1 : 0;
-        }
-    } else {
-        for (const rw_ray& ray : rays) {
-            rw_hit hit;
-            library.rw_scene_intersect(scene.handle(), &ray, &hit);
-            hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
-        }
-    }
-    return hits;
 }
 
 // The figures of all scenes, and how they are shown.
@@ -183,7 +141,10 @@ public:
                 measure(mesh, structure, table);
             }
         }
-        Report report{"triangle-test", options_.commit, options_.command, {}, {}, {}};
+        Report report;
+        report.target = "triangle-test";
+        report.commit = options_.commit;
+        report.command = options_.command;
         report.summary = table.summary();
         report.rows = std::move(table.rows);
         if (!options_.json.empty()) save(report, options_.json);
@@ -197,25 +158,29 @@ private:
     }
 
     void measure(const NamedMesh& named, const char* structure, Table& table) {
-        std::vector<std::unique_ptr<BuiltScene>> scenes;
+        std::vector<std::unique_ptr<Built>> scenes;
         for (const auto& library : libraries_) {
-            scenes.push_back(std::make_unique<BuiltScene>(*library, named.mesh, structure));
+            scenes.push_back(raywise_subject({library->name(), structure, {}}, *library)->build({named.mesh}));
         }
         for (const workloads::RayDistribution& distribution : workloads::ray_distributions()) {
-            const std::vector<rw_ray> rays =
-                packed(distribution.make({named.mesh, effort_.rays, ray_seed, [&](const workloads::Rays& asked) {
-                                              return closest(*scenes.front(), asked);
-                                          }}));
-            if (rays.empty()) continue;
+            const auto closest = [&](const workloads::Rays& asked) {
+                return surface_points(named.mesh, *scenes.front(), asked, 1);
+            };
+            const RaySet rays = rounded(distribution.make({named.mesh, effort_.rays, ray_seed, closest}));
+            if (rays.size() == 0) continue;
+            QueryRequest request{rays};
+            request.question = distribution.any_hit ? Question::any : Question::closest;
+            std::vector<std::unique_ptr<Query>> queries;
             std::vector<calibration::Timed> candidates;
             for (const auto& scene : scenes) {
+                queries.push_back(scene->query(request));
                 candidates.push_back(calibration::with_clock(
-                    [this, &scene, &rays, &distribution] { hits_ = ask(*scene, rays, distribution.any_hit); },
+                    [this, &query = *queries.back(), &rays] { hits_ = query.ask(0, rays.size()); },
                     calibration::processor_ns));
             }
             const std::vector<calibration::Timing> timings = time_in_turns(candidates, effort_.timing);
-            const double hit_rate = static_cast<double>(ask(*scenes.front(), rays, distribution.any_hit)) /
-                                    static_cast<double>(rays.size());
+            const double hit_rate =
+                static_cast<double>(queries.front()->ask(0, rays.size())) / static_cast<double>(rays.size());
             table.add(named.name, structure, distribution, timings, rays.size(), hit_rate);
         }
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The guard of the binary interface (tools/abi.py) refuses what it has to refuse, and accepts what is allowed.
 
-Makes libraries of empty functions from the header of raywise 0.1.0, each doctored in one way, and shows them to the
+Makes libraries of empty functions from the header of raywise 0.2.0, each doctored in one way, and shows them to the
 guard with the undoctored one as the earlier release."""
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 ABI = ROOT / "tools" / "abi.py"
 HEADER = Path("raywise") / "raywise.h"
-RELEASED = ROOT / "tests" / "capi" / "previous" / "raywise-0.1.0" / HEADER
+RELEASED = ROOT / "tests" / "capi" / "previous" / "raywise-0.2.0" / HEADER
 ACCEPTED, REFUSED = 0, 1
 
 MEMORY_LIMIT = r"RW_API int32_t rw_scene_set_memory_limit\(rw_scene \*scene, uint64_t bytes\);"
@@ -30,14 +30,14 @@ CASES = [
     ("a new function", ACCEPTED, [(MEMORY_LIMIT, r"\g<0>\nRW_API int32_t rw_new(int32_t number);")]),
     ("a new constant", ACCEPTED, [(r"^#define RW_OK 0", r"\g<0>\n#define RW_NEW 77")]),
     ("a new status", ACCEPTED,
-     [(r"^#define RW_STATUS_COUNT 29", "#define RW_ERROR_NEW 29\n#define RW_STATUS_COUNT 30")]),
-    ("a later version", ACCEPTED, [(r"^#define RW_VERSION_MINOR 1", "#define RW_VERSION_MINOR 2")]),
+     [(r"^#define RW_STATUS_COUNT 32", "#define RW_ERROR_NEW 32\n#define RW_STATUS_COUNT 33")]),
+    ("a later version", ACCEPTED, [(r"^#define RW_VERSION_MINOR 2", "#define RW_VERSION_MINOR 3")]),
     ("members appended to an input", ACCEPTED, [(r"^\} rw_rays;", r"    rw_array more;\n    uint64_t other;\n\g<0>")]),
     ("a member appended to a result", ACCEPTED, [STATISTICS_END]),
     ("members appended to a struct and to what it points to", ACCEPTED,
      [(r"^\} rw_(once_options|query_options);", r"    uint64_t more;\n\g<0>")]),
     ("a member appended to every struct with a struct_size", ACCEPTED,
-     [(r"^\} rw_(?!array|output|ray;|hit;)\w+;", r"    uint64_t more;\n\g<0>")]),
+     [(r"^\} rw_(?!array|output|ray;|hit;|ray_f32|hit_f32|primitive_id)\w+;", r"    uint64_t more;\n\g<0>")]),
 
     ("a function removed", REFUSED, [(MEMORY_LIMIT, "")]),
     ("a function renamed", REFUSED, [(r"rw_scene_set_memory_limit", "rw_scene_limit_memory")]),
@@ -45,7 +45,7 @@ CASES = [
     ("an argument's sign changed", REFUSED, [(LIMIT_ARGUMENT, r"\1, int64_t bytes")]),
     ("an argument more", REFUSED, [(LIMIT_ARGUMENT, r"\g<0>, uint64_t more")]),
     ("an argument less", REFUSED, [(LIMIT_ARGUMENT, r"\1")]),
-    ("another handle", REFUSED, [(r"rw_view_retain\(const rw_view", "rw_view_retain(const rw_scene")]),
+    ("another handle", REFUSED, [(r"rw_mesh_retain\(const rw_mesh", "rw_mesh_retain(const rw_profile")]),
     ("the returned type", REFUSED, [(r"int32_t (rw_scene_set_memory_limit)", r"int64_t \1")]),
     ("a callback's argument", REFUSED, [(r"void \*user, double fraction,", "void *user, float fraction,")]),
     ("a callback in a callback", REFUSED,
@@ -62,11 +62,13 @@ CASES = [
      [(r"rw_array direction;", "rw_output direction;"), RAYS_END]),
     ("two members of one type change places", REFUSED, SWAP_TIMES),
     ("two members change places and one is appended", REFUSED, [*SWAP_TIMES, STATISTICS_END]),
-    ("the last member removed", REFUSED, [(r"^    double rays_ns;.*\n", "")]),
+    ("the last member removed", REFUSED, [(r"^    uint64_t refits;.*\n", "")]),
     ("a member removed and one appended", REFUSED, [(r"^    double decide_ns;.*\n", ""), STATISTICS_END]),
     ("an array's length", REFUSED, [(r"double origin\[3\];(?= +/\* RW_VIEW_POINT)", "double origin[4];")]),
     ("a member appended to rw_ray, which has no struct_size", REFUSED, [(r"^\} rw_ray;", r"    double time;\n\g<0>")]),
     ("a member appended to rw_hit, which has no struct_size", REFUSED, [(r"^\} rw_hit;", r"    double time;\n\g<0>")]),
+    ("a member appended to rw_hit_f32, which has no struct_size", REFUSED,
+     [(r"^\} rw_hit_f32;", r"    float time;\n\g<0>")]),
     ("a member appended to rw_array, which others hold", REFUSED, [(r"^\} rw_array;", r"    int64_t more;\n\g<0>")]),
     ("the same and one appended to its holder", REFUSED, [(r"^\} rw_array;", r"    int64_t more;\n\g<0>"), RAYS_END]),
     ("struct_size moved from the front", REFUSED,

@@ -83,8 +83,8 @@ void check_answers(const rw_scene* scene, const rw_scene* expected) {
     for (int i = 0; i < 50; ++i) {
         const rw_ray ray = random_ray();
         rw_hit hit, wanted;
-        CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
-        CHECK_OK(rw_scene_intersect(expected, &ray, &wanted));
+        CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &hit));
+        CHECK_OK(rw_scene_intersect(expected, &ray, nullptr, &wanted));
         CHECK(memcmp(&hit, &wanted, sizeof hit) == 0);
     }
 }
@@ -115,7 +115,7 @@ void cancelling(const soup& s, const rw_scene* expected) {
             CHECK(strstr(rw_last_error_message(), "progress") != nullptr);
             const rw_ray ray = random_ray();
             rw_hit hit;
-            CHECK_ERROR(rw_scene_intersect(scene, &ray, &hit), RW_ERROR_NOT_COMMITTED, "commit");
+            CHECK_ERROR(rw_scene_intersect(scene, &ray, nullptr, &hit), RW_ERROR_NOT_COMMITTED, "commit");
         }
         rw_scene_statistics statistics;
         statistics.struct_size = sizeof statistics;

@@ -99,8 +99,8 @@ Caller::Caller(const CallFiles& files, uint64_t triangles, uint64_t rays)
     rw_scene* judge = make_on(mesh_, "linear_scan", RW_EFFORT_ESTIMATE, 1);
     const rw_view_options options = view_options("projected_bvh");
     const rw_commit_options alone = commit_options(1);
-    if (scene_ == nullptr || judge == nullptr || rw_view_create(scene_, &options, &alone, &view_) != RW_OK) exit(1);
-    for (uint64_t i = 0; i < rays; ++i) NEED_OK(rw_scene_intersect(judge, &rays_[i], &right_[i]));
+    if (scene_ == nullptr || judge == nullptr || rw_scene_view(scene_, &options, &alone, &view_) != RW_OK) exit(1);
+    for (uint64_t i = 0; i < rays; ++i) NEED_OK(rw_scene_intersect(judge, &rays_[i], nullptr, &right_[i]));
     rw_scene_release(judge);
     batch_.struct_size = sizeof batch_;
     batch_.count = rays;
@@ -111,7 +111,7 @@ Caller::Caller(const CallFiles& files, uint64_t triangles, uint64_t rays)
 }
 
 Caller::~Caller() {
-    rw_view_release(view_);
+    rw_scene_release(view_);
     rw_scene_release(scene_);
     free_soup(&soup_);
 }
@@ -154,7 +154,7 @@ bool Caller::batch_of_view(uint32_t threads) {
     hits.t.type = RW_FLOAT64;
     std::fill(t_.begin(), t_.end(), -1.0);
     const rw_query_options options = query_options(threads);
-    return rw_view_intersect_batch(view_, &batch_, &hits, &options) == RW_OK && hits_are_right();
+    return rw_scene_intersect_batch(view_, &batch_, &hits, &options) == RW_OK && hits_are_right();
 }
 
 bool Caller::batch_any(uint32_t threads) {
@@ -176,20 +176,22 @@ bool Caller::batch_all(uint32_t threads) {
 
 bool Caller::single_closest(uint32_t) {
     rw_hit hit;
-    return rw_scene_intersect(scene_, &next_ray(), &hit) == RW_OK && memcmp(&hit, &right_hit(), sizeof hit) == 0 &&
-           rw_view_intersect(view_, &next_ray(), &hit) == RW_OK && memcmp(&hit, &right_hit(), sizeof hit) == 0;
+    return rw_scene_intersect(scene_, &next_ray(), nullptr, &hit) == RW_OK &&
+           memcmp(&hit, &right_hit(), sizeof hit) == 0 &&
+           rw_scene_intersect(view_, &next_ray(), nullptr, &hit) == RW_OK &&
+           memcmp(&hit, &right_hit(), sizeof hit) == 0;
 }
 
 bool Caller::single_any(uint32_t) {
     int32_t any = 2;
-    return rw_scene_occluded(scene_, &next_ray(), &any) == RW_OK &&
+    return rw_scene_occluded(scene_, &next_ray(), nullptr, &any) == RW_OK &&
            (any == 1) == (right_hit().primitive != RW_INVALID_ID);
 }
 
 bool Caller::single_all(uint32_t) {
     rw_hit hits[8];
     uint64_t needed = 0;
-    const int32_t status = rw_scene_intersect_all(scene_, &next_ray(), hits, 8, &needed);
+    const int32_t status = rw_scene_intersect_all(scene_, &next_ray(), nullptr, hits, 8, &needed);
     if (status != (needed > 8 ? RW_ERROR_CAPACITY : RW_OK)) return false;
     return needed == 0 ? right_hit().primitive == RW_INVALID_ID : memcmp(&hits[0], &right_hit(), sizeof hits[0]) == 0;
 }
@@ -204,14 +206,14 @@ bool Caller::single_with_skips(uint32_t) {
     options.struct_size = sizeof options;
     options.skip_count = 1;
     options.skip = &skip;
-    return rw_scene_intersect_with(scene_, &ray, &options, &hit) == RW_OK && hit.primitive != right.primitive &&
+    return rw_scene_intersect(scene_, &ray, &options, &hit) == RW_OK && hit.primitive != right.primitive &&
            hit.t >= right.t;
 }
 
 bool Caller::commit(const char* structure, int32_t effort, uint32_t threads) {
     rw_scene* scene = make_on(mesh_, structure, effort, threads);
     rw_hit hit;
-    const bool right = scene != nullptr && rw_scene_intersect(scene, &next_ray(), &hit) == RW_OK &&
+    const bool right = scene != nullptr && rw_scene_intersect(scene, &next_ray(), nullptr, &hit) == RW_OK &&
                        memcmp(&hit, &right_hit(), sizeof hit) == 0;
     rw_scene_release(scene);
     return right;
@@ -222,21 +224,21 @@ bool Caller::refit(uint32_t threads) {
     rw_hit hit;
     const rw_commit_options options = commit_options(threads);
     const bool right = rw_scene_refit(scene_, &mesh_, 1, &options, &scene) == RW_OK &&
-                       rw_scene_intersect(scene, &next_ray(), &hit) == RW_OK &&
+                       rw_scene_intersect(scene, &next_ray(), nullptr, &hit) == RW_OK &&
                        memcmp(&hit, &right_hit(), sizeof hit) == 0;
     rw_scene_release(scene);
     return right;
 }
 
 bool Caller::view(uint32_t threads) {
-    rw_view* view = nullptr;
+    rw_scene* view = nullptr;
     rw_hit hit;
     const rw_view_options options = view_options("projected_bvh");
     const rw_commit_options commit = commit_options(threads);
-    const bool right = rw_view_create(scene_, &options, &commit, &view) == RW_OK &&
-                       rw_view_intersect(view, &next_ray(), &hit) == RW_OK &&
+    const bool right = rw_scene_view(scene_, &options, &commit, &view) == RW_OK &&
+                       rw_scene_intersect(view, &next_ray(), nullptr, &hit) == RW_OK &&
                        memcmp(&hit, &right_hit(), sizeof hit) == 0;
-    rw_view_release(view);
+    rw_scene_release(view);
     return right;
 }
 

@@ -65,7 +65,7 @@ private:
     soup soup_;
     rw_triangles mesh_;
     rw_scene* scene_ = nullptr;
-    rw_view* view_ = nullptr;
+    rw_scene* view_ = nullptr;
     std::vector<rw_ray> rays_;
     std::vector<rw_hit> right_; // from single calls, of a linear scan
     size_t next_ = 0;

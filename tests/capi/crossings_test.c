@@ -43,11 +43,11 @@ static void check_grid(const rw_scene *scene, const rw_scene *scan) {
             }
             ray.tmin = 0.0;
             ray.tmax = INFINITY;
-            CHECK_OK(rw_scene_intersect_all(scene, &ray, all, 16, &count));
-            CHECK_OK(rw_scene_intersect_all(scan, &ray, same, 16, &again));
+            CHECK_OK(rw_scene_intersect_all(scene, &ray, NULL, all, 16, &count));
+            CHECK_OK(rw_scene_intersect_all(scan, &ray, NULL, same, 16, &again));
             CHECK(count == again && memcmp(all, same, (size_t)count * sizeof all[0]) == 0);
-            CHECK_OK(rw_scene_intersect(scene, &ray, &closest));
-            CHECK_OK(rw_scene_occluded(scene, &ray, &occluded));
+            CHECK_OK(rw_scene_intersect(scene, &ray, NULL, &closest));
+            CHECK_OK(rw_scene_occluded(scene, &ray, NULL, &occluded));
             CHECK(occluded == (count > 0));
             if (count > 0) CHECK(memcmp(&closest, &all[0], sizeof closest) == 0);
             if (count == 0) CHECK(closest.primitive == RW_INVALID_ID);

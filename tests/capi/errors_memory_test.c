@@ -69,10 +69,10 @@ static int32_t occlude(void) { return rw_scene_occluded_batch(committed, &b.rays
 static int32_t intersect_all(void) {
     return rw_scene_intersect_all_batch(committed, &b.rays, b.offsets, &b.hits, COUNT, &b.needed, &b.options);
 }
-static int32_t view_intersect(void) { return rw_view_intersect_batch(view, &b.rays, &b.hits, &b.options); }
-static int32_t view_occlude(void) { return rw_view_occluded_batch(view, &b.rays, &b.flags, &b.options); }
+static int32_t view_intersect(void) { return rw_scene_intersect_batch(view, &b.rays, &b.hits, &b.options); }
+static int32_t view_occlude(void) { return rw_scene_occluded_batch(view, &b.rays, &b.flags, &b.options); }
 static int32_t view_intersect_all(void) {
-    return rw_view_intersect_all_batch(view, &b.rays, b.offsets, &b.hits, COUNT, &b.needed, &b.options);
+    return rw_scene_intersect_all_batch(view, &b.rays, b.offsets, &b.hits, COUNT, &b.needed, &b.options);
 }
 static int32_t once_intersect(void) {
     const rw_triangles t = triangles_of(&s);
@@ -128,9 +128,9 @@ static int32_t refit_mesh(void) {
 static int32_t once_mesh(void) { return rw_once_intersect(&mesh_in, 1, &b.rays, &b.hits, NULL); }
 static rw_view_options view_options;
 static int32_t make_view(void) {
-    rw_view *made = NULL;
-    const int32_t status = rw_view_create(committed, &view_options, NULL, &made);
-    rw_view_release(made);
+    rw_scene *made = NULL;
+    const int32_t status = rw_scene_view(committed, &view_options, NULL, &made);
+    rw_scene_release(made);
     return status;
 }
 
@@ -187,7 +187,7 @@ static void reserved_results(void) {
     memset(&hit, 0xFF, sizeof hit);
     memset(&info, 0xFF, sizeof info);
     info.struct_size = sizeof info;
-    CHECK_OK(rw_scene_intersect(committed, &ray, &hit));
+    CHECK_OK(rw_scene_intersect(committed, &ray, NULL, &hit));
     CHECK_OK(rw_profile_inspect(profile, &info));
     CHECK(hit.reserved == 0 && info.reserved == 0);
 }

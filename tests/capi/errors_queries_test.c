@@ -93,10 +93,10 @@ static void capacity(void) {
     rw_hits out;
     float t[2] = {-1, -1};
     ray.tmax = INFINITY;
-    CHECK_OK(rw_scene_intersect_all(dense, &ray, NULL, 0, &needed));
+    CHECK_OK(rw_scene_intersect_all(dense, &ray, NULL, NULL, 0, &needed));
     CHECK(needed > 2 && needed < 200);
-    CHECK_OK(rw_scene_intersect_all(dense, &ray, hits, 200, &needed));
-    CHECK_ERROR(rw_scene_intersect_all(dense, &ray, fewer, 2, &needed), RW_ERROR_CAPACITY, "hits|capacity is 2");
+    CHECK_OK(rw_scene_intersect_all(dense, &ray, NULL, hits, 200, &needed));
+    CHECK_ERROR(rw_scene_intersect_all(dense, &ray, NULL, fewer, 2, &needed), RW_ERROR_CAPACITY, "hits|capacity is 2");
     CHECK(memcmp(hits, fewer, sizeof fewer) == 0);
 
     memset(&rays, 0, sizeof rays);

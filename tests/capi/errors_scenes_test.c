@@ -81,7 +81,7 @@ static void before_and_after_the_commit(void) {
     rw_grid_statistics grid;
     rw_candidate candidate;
     rw_view_options options;
-    rw_view *none = NULL;
+    rw_scene *none = NULL;
     rw_scene *refitted = NULL;
     rw_expected_rays expected;
     memset(&rays, 0, sizeof rays);
@@ -104,16 +104,16 @@ static void before_and_after_the_commit(void) {
     TOO_EARLY(rw_scene_bounds(fresh, lower, upper));
     TOO_EARLY(rw_scene_get_statistics(fresh, &statistics));
     TOO_EARLY(rw_scene_get_grid_statistics(fresh, &grid));
-    TOO_EARLY(rw_scene_intersect(fresh, &ray, &hit));
-    TOO_EARLY(rw_scene_occluded(fresh, &ray, &occluded));
-    TOO_EARLY(rw_scene_intersect_all(fresh, &ray, NULL, 0, &needed));
+    TOO_EARLY(rw_scene_intersect(fresh, &ray, NULL, &hit));
+    TOO_EARLY(rw_scene_occluded(fresh, &ray, NULL, &occluded));
+    TOO_EARLY(rw_scene_intersect_all(fresh, &ray, NULL, NULL, 0, &needed));
     TOO_EARLY(rw_scene_intersect_batch(fresh, &rays, &hits, NULL));
     TOO_EARLY(rw_scene_occluded_batch(fresh, &rays, &flags, NULL));
     TOO_EARLY(rw_scene_intersect_all_batch(fresh, &rays, offsets, NULL, 0, &needed, NULL));
     TOO_EARLY(rw_scene_candidate_count(fresh, &number));
     TOO_EARLY(rw_scene_get_candidate(fresh, 0, &candidate));
     TOO_EARLY(rw_scene_explain(fresh, 0, NULL, 0, &needed));
-    TOO_EARLY(rw_view_create(fresh, &options, NULL, &none));
+    TOO_EARLY(rw_scene_view(fresh, &options, NULL, &none));
     TOO_EARLY(rw_scene_refit(fresh, &t, 1, NULL, &refitted));
     CHECK(refitted == NULL);
 
@@ -196,7 +196,7 @@ static void expectations(void) {
     rw_rays rays;
     rw_hits hits;
     rw_triangles t = triangles_of(&s);
-    rw_view *none = NULL;
+    rw_scene *none = NULL;
     memset(&expected, 0, sizeof expected);
     memset(&options, 0, sizeof options);
     memset(&once, 0, sizeof once);
@@ -232,31 +232,31 @@ static void expectations(void) {
     CHECK_ERROR(rw_scene_set_effort(fresh, 0, 0, -1), RW_ERROR_INVALID_ARGUMENT, "time_limit_seconds");
     CHECK_ERROR(rw_scene_set_effort(fresh, 0, 0, NAN), RW_ERROR_INVALID_ARGUMENT, "time_limit_seconds");
 
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_RAY_COUNT, "options.count|0");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_RAY_COUNT, "options.count|0");
     options.count = RW_RAYS_LIMIT + 1;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_RAY_COUNT, "options.count");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_RAY_COUNT, "options.count");
     options.count = 1;
     options.kind = 9;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "options.kind|9");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "options.kind|9");
     options.kind = RW_VIEW_DIRECTION;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "options.direction|zero");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "options.direction|zero");
     options.direction[1] = NAN;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_NOT_FINITE, "options.direction");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_NOT_FINITE, "options.direction");
     options.direction[1] = 1.0;
     options.kind = RW_VIEW_POINT;
     options.origin[2] = INFINITY;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_NOT_FINITE, "options.origin");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_NOT_FINITE, "options.origin");
     options.origin[2] = 0.0;
     options.half_angle = 1.6;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "half_angle");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "half_angle");
     options.half_angle = NAN;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "half_angle");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "half_angle");
     options.half_angle = 0.5;
     options.ray_kind = 17;
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "kind|17");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_INVALID_ARGUMENT, "kind|17");
     options.ray_kind = 0;
     options.structure = "heap";
-    CHECK_ERROR(rw_view_create(committed, &options, NULL, &none), RW_ERROR_UNKNOWN_STRUCTURE, "heap");
+    CHECK_ERROR(rw_scene_view(committed, &options, NULL, &none), RW_ERROR_UNKNOWN_STRUCTURE, "heap");
     CHECK(none == NULL);
 
     rays.count = 0;
@@ -284,7 +284,7 @@ static void memory_limit(void) {
     /* The scene is as it was and may be committed again. */
     CHECK_OK(rw_scene_set_memory_limit(scene, 0));
     CHECK_OK(rw_scene_commit(scene, NULL));
-    CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+    CHECK_OK(rw_scene_intersect(scene, &ray, NULL, &hit));
     rw_scene_release(scene);
 }
 
@@ -344,7 +344,7 @@ static void callbacks(void) {
     rw_query_options query;
     rw_once_options once;
     rw_view_options options;
-    rw_view *none = NULL;
+    rw_scene *none = NULL;
     rw_rays rays;
     rw_hits hits;
     rw_scene *scene = NULL, *tree = make_scene(&s, "bvh"), *refitted = NULL;
@@ -378,13 +378,13 @@ static void callbacks(void) {
     CHECK_OK(rw_scene_set_structure(scene, "uniform_grid"));
     commit.progress = stop;
     CHECK_ERROR(rw_scene_commit(scene, &commit), RW_ERROR_CANCELLED, "progress callback");
-    CHECK_ERROR(rw_view_create(committed, &options, &commit, &none), RW_ERROR_CANCELLED, "progress callback");
+    CHECK_ERROR(rw_scene_view(committed, &options, &commit, &none), RW_ERROR_CANCELLED, "progress callback");
     CHECK_ERROR(rw_scene_refit(tree, &t, 1, &commit, &refitted), RW_ERROR_CANCELLED, "progress callback");
     commit.progress = NULL;
     for (i = 0; i < sizeof loops / sizeof loops[0]; ++i) {
         commit.parallel_for = query.parallel_for = loops[i].loop;
         CHECK_ERROR(rw_scene_commit(scene, &commit), RW_ERROR_HOST_PARALLEL, loops[i].parts);
-        CHECK_ERROR(rw_view_create(committed, &options, &commit, &none), RW_ERROR_HOST_PARALLEL, loops[i].parts);
+        CHECK_ERROR(rw_scene_view(committed, &options, &commit, &none), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_scene_refit(tree, &t, 1, &commit, &refitted), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_scene_intersect_batch(committed, &rays, &hits, &query), RW_ERROR_HOST_PARALLEL, loops[i].parts);
         CHECK_ERROR(rw_once_intersect(&t, 1, &rays, &hits, &once), RW_ERROR_HOST_PARALLEL, loops[i].parts);

@@ -10,7 +10,7 @@
 static soup s;
 static rw_scene *fresh;     /* filled, not committed */
 static rw_scene *committed; /* on the linear scan */
-static rw_view *view;
+static rw_scene *view;
 static rw_profile *profile;
 static rw_mesh *mesh;
 static char folder[] = "/tmp/raywise-errors-XXXXXX";
@@ -43,7 +43,7 @@ static void set_up(void) {
     memset(&options, 0, sizeof options);
     options.struct_size = sizeof options;
     options.count = 100;
-    NEED_OK(rw_view_create(committed, &options, NULL, &view));
+    NEED_OK(rw_scene_view(committed, &options, NULL, &view));
     NEED_OK(rw_mesh_load(file_with("square.obj", obj), &mesh));
 }
 
@@ -57,7 +57,7 @@ static int tear_down(const char *name) {
     CHECK_OK(rw_scene_get_statistics(fresh, &statistics));
     CHECK(statistics.geometry_count == 1 && statistics.triangle_count == s.triangles);
     rw_mesh_release(mesh);
-    rw_view_release(view);
+    rw_scene_release(view);
     rw_scene_release(fresh);
     rw_scene_release(committed);
     rw_profile_release(profile);

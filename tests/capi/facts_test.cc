@@ -85,9 +85,12 @@ void statistics_and_bounds() {
         CHECK(lower[0] == 0 && lower[1] == 0 && lower[2] == -3 && upper[0] == 1 && upper[1] == 2 && upper[2] == 0);
         const rw_ray ray = {{0.1, 0.1, 1}, 0, {0, 0, -1}, INFINITY};
         rw_hit hit;
-        CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+        CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &hit));
         CHECK(hit.t == 1.0 && hit.geometry == 0 && hit.primitive == 0 && hit.instance == RW_INVALID_ID);
-        CHECK(hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == 1 && hit.u == 0.1 && hit.v == 0.05);
+        CHECK(hit.u == 0.1 && hit.v == 0.05);
+        double normal[3];
+        CHECK_OK(rw_scene_normal(scene, &hit, normal));
+        CHECK(normal[0] == 0 && normal[1] == 0 && normal[2] == 1);
 
         rw_grid_statistics grid{};
         grid.struct_size = sizeof grid;
@@ -126,10 +129,10 @@ void empty_scenes() {
             rw_hit hit;
             int32_t any = 7;
             uint64_t needed = 7;
-            CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+            CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &hit));
             CHECK(hit.t == INFINITY && hit.primitive == RW_INVALID_ID);
-            CHECK_OK(rw_scene_occluded(scene, &ray, &any));
-            CHECK_OK(rw_scene_intersect_all(scene, &ray, nullptr, 0, &needed));
+            CHECK_OK(rw_scene_occluded(scene, &ray, nullptr, &any));
+            CHECK_OK(rw_scene_intersect_all(scene, &ray, nullptr, nullptr, 0, &needed));
             CHECK(any == 0 && needed == 0);
             CHECK(!text_of([&](char* b, uint64_t c, uint64_t* n) {
                        return rw_scene_explain(scene, RW_FORMAT_TEXT, b, c, n);
@@ -138,11 +141,11 @@ void empty_scenes() {
             options.struct_size = sizeof options;
             options.count = 10;
             options.structure = name;
-            rw_view* view = nullptr;
-            CHECK_OK(rw_view_create(scene, &options, nullptr, &view));
-            CHECK_OK(rw_view_intersect(view, &ray, &hit));
+            rw_scene* view = nullptr;
+            CHECK_OK(rw_scene_view(scene, &options, nullptr, &view));
+            CHECK_OK(rw_scene_intersect(view, &ray, nullptr, &hit));
             CHECK(hit.t == INFINITY);
-            rw_view_release(view);
+            rw_scene_release(view);
             rw_scene_release(scene);
         }
     }
@@ -196,19 +199,19 @@ void candidates_and_explanations() {
         options.struct_size = sizeof options;
         options.count = 1000;
         options.origin[0] = 4;
-        rw_view* view = nullptr;
-        CHECK_OK(rw_view_create(scene, &options, nullptr, &view));
-        CHECK_OK(rw_view_candidate_count(view, &count));
+        rw_scene* view = nullptr;
+        CHECK_OK(rw_scene_view(scene, &options, nullptr, &view));
+        CHECK_OK(rw_scene_candidate_count(view, &count));
         CHECK(count == structure_count);
         for (uint32_t i = 0; i < count; ++i) {
             rw_candidate c{};
             c.struct_size = sizeof c;
-            CHECK_OK(rw_view_get_candidate(view, i, &c));
+            CHECK_OK(rw_scene_get_candidate(view, i, &c));
         }
         const std::string of_view =
-            text_of([&](char* b, uint64_t c, uint64_t* n) { return rw_view_explain(view, RW_FORMAT_JSON, b, c, n); });
+            text_of([&](char* b, uint64_t c, uint64_t* n) { return rw_scene_explain(view, RW_FORMAT_JSON, b, c, n); });
         CHECK(!nlohmann::json::parse(of_view, nullptr, false).is_discarded());
-        rw_view_release(view);
+        rw_scene_release(view);
         rw_scene_release(scene);
     }
     free_soup(&s);
@@ -270,7 +273,7 @@ void mesh_files() {
     CHECK_OK(rw_scene_commit(scene, nullptr));
     const rw_ray ray = {{0.75, 0.25, -1}, 0, {0, 0, 4}, INFINITY};
     rw_hit hit;
-    CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+    CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &hit));
     CHECK(hit.t == 0.25 && hit.primitive == 0);
     rw_scene_release(scene);
     CHECK_OK(rw_mesh_retain(mesh));
@@ -302,7 +305,7 @@ void mesh_files_of_float64() {
         CHECK_OK(rw_scene_commit(scene, nullptr));
         const rw_ray ray = {{0, 2, 2}, 0, {1, 0, 0}, INFINITY};
         rw_hit hit;
-        CHECK_OK(rw_scene_intersect(scene, &ray, &hit));
+        CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &hit));
         CHECK(hit.primitive == 0 && hit.t >= 6378137.123456789 && hit.t <= 6378137.123456790);
         char text[8192];
         CHECK_OK(rw_scene_explain(scene, RW_FORMAT_TEXT, text, sizeof text, nullptr));

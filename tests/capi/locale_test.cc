@@ -92,12 +92,12 @@ std::string everything(const rw_scene* scene, const Files& files) {
     rw_mesh* mesh = nullptr;
     add_error(all, rw_mesh_load((folder + "/missing.obj").c_str(), &mesh));
     add_error(all, rw_mesh_load((folder + "/no\x01such\x01").c_str(), &mesh));
-    rw_view* view = nullptr;
+    rw_scene* view = nullptr;
     rw_view_options options{};
     options.struct_size = sizeof options;
     options.count = 1234567;
     options.half_angle = 1234.5;
-    add_error(all, rw_view_create(scene, &options, nullptr, &view));
+    add_error(all, rw_scene_view(scene, &options, nullptr, &view));
     return all;
 }
 

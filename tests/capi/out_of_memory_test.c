@@ -149,11 +149,11 @@ static void ask_scene(const rw_scene *scene, const rw_query_options *query, answ
     skipping.skip = &skip;
     skipping.skip_count = 1;
     for (i = 0; i < RAYS; ++i) {
-        CALL(rw_scene_intersect(scene, &rays_in[i], &a->single[i]), UNWRITTEN(a->single[i]));
-        CALL(rw_scene_occluded(scene, &rays_in[i], &a->occluded[i]), UNWRITTEN(a->occluded[i]));
+        CALL(rw_scene_intersect(scene, &rays_in[i], NULL, &a->single[i]), UNWRITTEN(a->single[i]));
+        CALL(rw_scene_occluded(scene, &rays_in[i], NULL, &a->occluded[i]), UNWRITTEN(a->occluded[i]));
     }
-    CALL(rw_scene_intersect_with(scene, &rays_in[0], &skipping, &a->skipping), UNWRITTEN(a->skipping));
-    CALL(rw_scene_intersect_all(scene, &rays_in[0], a->all, MOST, &a->all_count),
+    CALL(rw_scene_intersect(scene, &rays_in[0], &skipping, &a->skipping), UNWRITTEN(a->skipping));
+    CALL(rw_scene_intersect_all(scene, &rays_in[0], NULL, a->all, MOST, &a->all_count),
          UNWRITTEN(a->all) && UNWRITTEN(a->all_count));
     hits.normal.data = a->normal;
     hits.normal.type = RW_FLOAT64;
@@ -175,7 +175,7 @@ static void ask_view(const rw_scene *scene, const plan *p, const rw_commit_optio
     const rw_rays rays = all_rays();
     const rw_hits hits = only_t(a->view_t);
     rw_view_options options;
-    rw_view *view = NULL;
+    rw_scene *view = NULL;
     uint64_t needed = 0;
     int i;
     memset(&options, 0, sizeof options);
@@ -183,14 +183,14 @@ static void ask_view(const rw_scene *scene, const plan *p, const rw_commit_optio
     options.origin[2] = 2.0;
     options.count = 1000000;
     options.structure = p->structure;
-    CALL(rw_view_create(scene, &options, one_thread, &view), view == NULL);
+    CALL(rw_scene_view(scene, &options, one_thread, &view), view == NULL);
     for (i = 0; i < RAYS; ++i)
-        CALL(rw_view_intersect(view, &rays_in[i], &a->view_single[i]), UNWRITTEN(a->view_single[i]));
-    CALL(rw_view_intersect_batch(view, &rays, &hits, query), UNWRITTEN(a->view_t));
-    CALL(rw_view_intersect_all_batch(view, &rays, a->view_offsets, NULL, 0, &needed, query),
+        CALL(rw_scene_intersect(view, &rays_in[i], NULL, &a->view_single[i]), UNWRITTEN(a->view_single[i]));
+    CALL(rw_scene_intersect_batch(view, &rays, &hits, query), UNWRITTEN(a->view_t));
+    CALL(rw_scene_intersect_all_batch(view, &rays, a->view_offsets, NULL, 0, &needed, query),
          UNWRITTEN(a->view_offsets));
-    CALL(rw_view_explain(view, RW_FORMAT_TEXT, NULL, 0, &needed), 1);
-    CHECK_OK(rw_view_release(view));
+    CALL(rw_scene_explain(view, RW_FORMAT_TEXT, NULL, 0, &needed), 1);
+    CHECK_OK(rw_scene_release(view));
 }
 
 static void ask_why(const rw_scene *scene) {
@@ -222,7 +222,7 @@ static void ask_moved(const rw_scene *scene, const rw_commit_options *one_thread
     meshes[1].indices.data = meshes[2].indices.data = NULL;
     meshes[2].flags = RW_TRIANGLES_SKIP_INVALID; /* the indices that were shared are copied now */
     CALL(rw_scene_refit(scene, meshes, 3, one_thread, &moved), moved == NULL);
-    for (i = 0; i < RAYS; ++i) CALL(rw_scene_intersect(moved, &rays_in[i], &a->moved[i]), UNWRITTEN(a->moved[i]));
+    for (i = 0; i < RAYS; ++i) CALL(rw_scene_intersect(moved, &rays_in[i], NULL, &a->moved[i]), UNWRITTEN(a->moved[i]));
     CHECK_OK(rw_scene_release(moved));
 }
 

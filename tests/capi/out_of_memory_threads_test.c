@@ -160,7 +160,7 @@ int main(void) {
         NEED_OK(rw_scene_add_triangles(judge, &mesh, NULL));
         NEED_OK(rw_scene_set_structure(judge, "linear_scan"));
         NEED_OK(rw_scene_commit(judge, &one_thread));
-        for (i = 0; i < RAYS; ++i) NEED_OK(rw_scene_intersect(judge, &rays_in[i], &wanted[i]));
+        for (i = 0; i < RAYS; ++i) NEED_OK(rw_scene_intersect(judge, &rays_in[i], NULL, &wanted[i]));
         NEED_OK(rw_scene_release(judge));
     }
 

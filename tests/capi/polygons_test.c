@@ -104,6 +104,7 @@ static rw_scene *scene_of(const char *path, const char *structure, int count) {
 static uint64_t hits_at(const rw_scene *scene, double x, double y, int upward) {
     rw_ray ray;
     rw_hit hits[8];
+    double normal[3];
     uint64_t count = 0;
     memset(&ray, 0, sizeof ray);
     ray.origin[0] = x;
@@ -111,10 +112,11 @@ static uint64_t hits_at(const rw_scene *scene, double x, double y, int upward) {
     ray.origin[2] = 100.0;
     ray.direction[2] = -1.0;
     ray.tmax = INFINITY;
-    CHECK_OK(rw_scene_intersect_all(scene, &ray, hits, 8, &count));
+    CHECK_OK(rw_scene_intersect_all(scene, &ray, NULL, hits, 8, &count));
     if (count == 1) {
         CHECK(fabs(hits[0].t - (100.0 - (2.0 * x - y))) < 1e-9);
-        CHECK((hits[0].normal[2] > 0.0) == upward);
+        CHECK_OK(rw_scene_normal(scene, &hits[0], normal));
+        CHECK((normal[2] > 0.0) == upward);
     }
     return count;
 }

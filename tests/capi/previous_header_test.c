@@ -2,7 +2,7 @@
  * got. Its structs have the size they had then and end where a page that nobody may touch begins, with known bytes in
  * front: the library neither reads nor writes outside of them.
  *
- * Compiled once for each header in previous/, so it may use nothing that came after 0.1. */
+ * Compiled once for each header in previous/, so it may use nothing that came after 0.2. */
 #include "testing.h"
 
 #include <sys/mman.h>
@@ -19,7 +19,7 @@ typedef struct walled {
     size_t used; /* the last of them */
 } walled;
 
-static walled all_walled[4096];
+static walled all_walled[16384];
 static size_t walled_count;
 #define IN_FRONT 0xA5
 
@@ -63,11 +63,12 @@ static void *new_struct(size_t size, size_t size_of_struct_size) {
 
 /* ---- the scene, the rays and the answers expected ------------------------------------------------ */
 
-static float *vertices;       /* of a soup */
-static uint32_t *indices;     /* of the same */
-static double *wide_vertices; /* another mesh, float64 without indices */
-static rw_ray *rays_in;       /* RAYS of them */
-static rw_hit wanted[RAYS];   /* by the linear scan */
+static float *vertices;              /* of a soup */
+static uint32_t *indices;            /* of the same */
+static double *wide_vertices;        /* another mesh, float64 without indices */
+static rw_ray *rays_in;              /* RAYS of them */
+static rw_hit wanted[RAYS];          /* by the linear scan */
+static float wanted_normal[RAYS][3]; /* zero for a miss */
 static uint64_t wanted_all[RAYS];
 
 static rw_triangles *narrow_mesh(void) {
@@ -162,13 +163,30 @@ static rw_hits *into(answers *to) {
 
 static void check_answer(const answers *a, int i, const rw_hit *hit) {
     CHECK(a->t[i] == (float)hit->t && a->uv[2 * i] == (float)hit->u && a->uv[2 * i + 1] == (float)hit->v);
-    CHECK(a->normal[3 * i] == (float)hit->normal[0] && a->normal[3 * i + 1] == (float)hit->normal[1] &&
-          a->normal[3 * i + 2] == (float)hit->normal[2]);
+    CHECK(memcmp(&a->normal[3 * i], wanted_normal[i], sizeof wanted_normal[i]) == 0);
     CHECK(a->geometry[i] == hit->geometry && a->primitive[i] == hit->primitive);
     CHECK(a->instance[i] == (hit->instance == RW_INVALID_ID ? 0xFFFFFFFFFFFFFFFFull : hit->instance));
 }
 
-static void ask_singly(const rw_scene *scene, const rw_view *view) {
+static void ask_in_float32(const rw_scene *scene, int i) {
+    rw_ray_f32 *ray = (rw_ray_f32 *)at_the_wall(sizeof(rw_ray_f32));
+    rw_hit_f32 *hit = (rw_hit_f32 *)at_the_wall(sizeof(rw_hit_f32));
+    rw_ray_options *options = NEW(rw_ray_options);
+    rw_ray wide;
+    rw_hit right;
+    int axis;
+    for (axis = 0; axis < 3; ++axis) {
+        wide.origin[axis] = ray->origin[axis] = (float)rays_in[i].origin[axis];
+        wide.direction[axis] = ray->direction[axis] = (float)rays_in[i].direction[axis];
+    }
+    wide.tmin = ray->tmin = 0.0f;
+    wide.tmax = ray->tmax = 1e9f;
+    CHECK_OK(rw_scene_intersect(scene, &wide, NULL, &right));
+    CHECK_OK(rw_scene_intersect_f32(scene, ray, options, hit));
+    CHECK(hit->t == (float)right.t && hit->primitive == right.primitive && hit->geometry == right.geometry);
+}
+
+static void ask_singly(const rw_scene *scene) {
     rw_hit *hit = (rw_hit *)at_the_wall(sizeof(rw_hit));
     rw_ray *ray = (rw_ray *)at_the_wall(sizeof(rw_ray));
     rw_hit *list = (rw_hit *)at_the_wall(2 * sizeof(rw_hit));
@@ -178,18 +196,18 @@ static void ask_singly(const rw_scene *scene, const rw_view *view) {
     for (i = 0; i < RAYS; ++i) {
         int32_t status;
         *ray = rays_in[i];
-        CHECK_OK(view != NULL ? rw_view_intersect(view, ray, hit) : rw_scene_intersect(scene, ray, hit));
+        CHECK_OK(rw_scene_intersect(scene, ray, NULL, hit));
         CHECK(memcmp(hit, &wanted[i], sizeof *hit) == 0);
-        CHECK_OK(view != NULL ? rw_view_occluded(view, ray, occluded) : rw_scene_occluded(scene, ray, occluded));
+        CHECK_OK(rw_scene_occluded(scene, ray, NULL, occluded));
         CHECK(*occluded == (wanted[i].primitive != RW_INVALID_ID));
-        status = view != NULL ? rw_view_intersect_all(view, ray, list, 2, needed)
-                              : rw_scene_intersect_all(scene, ray, list, 2, needed);
+        ask_in_float32(scene, i);
+        status = rw_scene_intersect_all(scene, ray, NULL, list, 2, needed);
         CHECK(*needed == wanted_all[i] && status == (*needed > 2 ? RW_ERROR_CAPACITY : RW_OK));
         CHECK(*needed == 0 || memcmp(list, &wanted[i], sizeof *list) == 0);
     }
 }
 
-static void ask_in_batches(const rw_scene *scene, const rw_view *view) {
+static void ask_in_batches(const rw_scene *scene) {
     answers *a = (answers *)at_the_wall(sizeof(answers));
     rw_rays *rays = all_rays();
     rw_hits *hits = into(a);
@@ -198,45 +216,46 @@ static void ask_in_batches(const rw_scene *scene, const rw_view *view) {
     uint8_t *occluded = (uint8_t *)at_the_wall(RAYS);
     uint64_t *offsets = (uint64_t *)at_the_wall((RAYS + 1) * sizeof(uint64_t));
     uint64_t *invalid = (uint64_t *)at_the_wall(sizeof(uint64_t)), *needed = (uint64_t *)at_the_wall(sizeof(uint64_t));
+    double *fraction = (double *)at_the_wall(sizeof(double));
+    int32_t *cancel = (int32_t *)at_the_wall(sizeof(int32_t));
     int calls = 0, i;
     options->threads = 2;
     options->parallel_for = in_order;
     options->parallel_user = &calls;
     options->invalid_rays = invalid;
+    options->progress = keep_fraction;
+    options->progress_user = fraction;
+    options->cancel = cancel;
+    *cancel = 0;
     memset(flags, 0, sizeof *flags);
     flags->data = occluded;
 
-    CHECK_OK(view != NULL ? rw_view_intersect_batch(view, rays, hits, options)
-                          : rw_scene_intersect_batch(scene, rays, hits, options));
-    CHECK(*invalid == 1 && calls > 0);
+    CHECK_OK(rw_scene_intersect_batch(scene, rays, hits, options));
+    CHECK(*invalid == 1 && calls > 0 && *fraction == 1.0);
     for (i = 0; i < RAYS; ++i) check_answer(a, i, &wanted[i]);
-    CHECK_OK(view != NULL ? rw_view_occluded_batch(view, rays, flags, options)
-                          : rw_scene_occluded_batch(scene, rays, flags, options));
+    CHECK_OK(rw_scene_occluded_batch(scene, rays, flags, options));
     for (i = 0; i < RAYS; ++i) CHECK(occluded[i] == (wanted[i].primitive != RW_INVALID_ID));
 
-    CHECK_OK(view != NULL ? rw_view_intersect_all_batch(view, rays, offsets, NULL, 0, needed, options)
-                          : rw_scene_intersect_all_batch(scene, rays, offsets, NULL, 0, needed, options));
+    CHECK_OK(rw_scene_intersect_all_batch(scene, rays, offsets, NULL, 0, needed, options));
     CHECK(offsets[0] == 0 && offsets[RAYS] == *needed);
     for (i = 0; i < RAYS; ++i) CHECK(offsets[i + 1] - offsets[i] == wanted_all[i]);
     {
         float *t = (float *)at_the_wall((size_t)*needed * sizeof(float));
         rw_hits *only_t = NEW(rw_hits);
         only_t->t.data = t;
-        CHECK_OK(view != NULL ? rw_view_intersect_all_batch(view, rays, offsets, only_t, *needed, needed, options)
-                              : rw_scene_intersect_all_batch(scene, rays, offsets, only_t, *needed, needed, options));
+        CHECK_OK(rw_scene_intersect_all_batch(scene, rays, offsets, only_t, *needed, needed, options));
         for (i = 0; i < RAYS; ++i) CHECK(wanted_all[i] == 0 || t[offsets[i]] == (float)wanted[i].t);
     }
 }
 
-static void ask_why(const rw_scene *scene, const rw_view *view, const char *chosen) {
+static void ask_why(const rw_scene *scene, const char *chosen) {
     uint32_t *count = (uint32_t *)at_the_wall(sizeof(uint32_t)), i, found = 0;
     uint64_t *needed = (uint64_t *)at_the_wall(sizeof(uint64_t));
     char *text;
-    CHECK_OK(view != NULL ? rw_view_candidate_count(view, count) : rw_scene_candidate_count(scene, count));
+    CHECK_OK(rw_scene_candidate_count(scene, count));
     for (i = 0; i < *count; ++i) {
         rw_candidate *candidate = NEW(rw_candidate);
-        CHECK_OK(view != NULL ? rw_view_get_candidate(view, i, candidate)
-                              : rw_scene_get_candidate(scene, i, candidate));
+        CHECK_OK(rw_scene_get_candidate(scene, i, candidate));
         CHECK(candidate->struct_size == sizeof *candidate && candidate->structure != NULL);
         if ((candidate->flags & RW_CANDIDATE_CHOSEN) == 0) continue;
         ++found;
@@ -244,11 +263,9 @@ static void ask_why(const rw_scene *scene, const rw_view *view, const char *chos
         CHECK(candidate->actual_ray_ns >= 0.0); /* the last member, after batches */
     }
     CHECK(found == 1);
-    CHECK_OK(view != NULL ? rw_view_explain(view, RW_FORMAT_JSON, NULL, 0, needed)
-                          : rw_scene_explain(scene, RW_FORMAT_JSON, NULL, 0, needed));
+    CHECK_OK(rw_scene_explain(scene, RW_FORMAT_JSON, NULL, 0, needed));
     text = (char *)at_the_wall((size_t)*needed);
-    CHECK_OK(view != NULL ? rw_view_explain(view, RW_FORMAT_JSON, text, *needed, needed)
-                          : rw_scene_explain(scene, RW_FORMAT_JSON, text, *needed, needed));
+    CHECK_OK(rw_scene_explain(scene, RW_FORMAT_JSON, text, *needed, needed));
     CHECK(strlen(text) + 1 == *needed && (chosen == NULL || strstr(text, chosen) != NULL));
 }
 
@@ -284,13 +301,21 @@ static void learn_what_is_wanted(const rw_profile *profile) {
     rw_scene *judge = filled_scene(profile);
     const rw_ray down = {{0.5, -1.0, 6.25}, 0.0, {0.0, 0.0, -1.0}, 1e9};
     rw_hit hit;
+    rw_hit_f32 narrow;
+    double normal[3];
     int i, hits = 0;
     NEED_OK(rw_scene_set_structure(judge, "linear_scan"));
     NEED_OK(rw_scene_commit(judge, NULL));
     for (i = 0; i < RAYS; ++i) {
-        NEED_OK(rw_scene_intersect(judge, &rays_in[i], &wanted[i]));
-        NEED_OK(rw_scene_intersect_all(judge, &rays_in[i], NULL, 0, &wanted_all[i]));
-        hits += wanted[i].primitive != RW_INVALID_ID;
+        NEED_OK(rw_scene_intersect(judge, &rays_in[i], NULL, &wanted[i]));
+        NEED_OK(rw_scene_intersect_all(judge, &rays_in[i], NULL, NULL, 0, &wanted_all[i]));
+        if (wanted[i].primitive == RW_INVALID_ID) continue;
+        ++hits;
+        memset(&narrow, 0, sizeof narrow);
+        narrow.instance = wanted[i].instance;
+        narrow.geometry = wanted[i].geometry;
+        narrow.primitive = wanted[i].primitive;
+        NEED_OK(rw_scene_normal_f32(judge, &narrow, wanted_normal[i]));
     }
     CHECK(hits > RAYS / 3);
     rw_scene_release(judge);
@@ -299,8 +324,9 @@ static void learn_what_is_wanted(const rw_profile *profile) {
     NEED_OK(rw_scene_create(profile, &judge));
     NEED_OK(rw_scene_add_triangles(judge, wide_mesh(), NULL));
     NEED_OK(rw_scene_commit(judge, NULL));
-    CHECK_OK(rw_scene_intersect(judge, &down, &hit));
-    CHECK(hit.t == 6.0 && hit.normal[2] == 1.0 && hit.primitive == 0 && hit.geometry == 0);
+    CHECK_OK(rw_scene_intersect(judge, &down, NULL, &hit));
+    CHECK_OK(rw_scene_normal(judge, &hit, normal));
+    CHECK(hit.t == 6.0 && normal[2] == 1.0 && hit.primitive == 0 && hit.geometry == 0);
     rw_scene_release(judge);
 }
 
@@ -329,8 +355,8 @@ static void scene_program(const rw_profile *profile, const char *structure, int3
 
     CHECK_OK(rw_scene_bounds(scene, corners, corners + 3));
     CHECK(corners[0] == -3.0 && corners[3] == 3.0);
-    ask_singly(scene, NULL);
-    ask_in_batches(scene, NULL);
+    ask_singly(scene);
+    ask_in_batches(scene);
     CHECK_OK(rw_scene_get_statistics(scene, statistics));
     CHECK(statistics->struct_size == sizeof *statistics && statistics->geometry_count == 2);
     CHECK(statistics->triangle_count == TRIANGLES + 2 && statistics->rays > 0 && statistics->invalid_rays > 0);
@@ -342,7 +368,7 @@ static void scene_program(const rw_profile *profile, const char *structure, int3
     } else {
         CHECK_ERROR(rw_scene_get_grid_statistics(scene, grid), RW_ERROR_WRONG_STRUCTURE, "uniform_grid");
     }
-    ask_why(scene, NULL, statistics->structure);
+    ask_why(scene, statistics->structure);
     rw_scene_release(scene);
 }
 
@@ -350,7 +376,7 @@ static void view_program(const rw_profile *profile, const char *structure, int32
     rw_scene *scene = filled_scene(profile);
     rw_view_options *options = NEW(rw_view_options);
     rw_commit_options *commit = NEW(rw_commit_options);
-    rw_view *view = NULL;
+    rw_scene *view = NULL;
     options->kind = kind;
     options->origin[2] = 3.0;
     options->direction[2] = -1.0;
@@ -360,11 +386,11 @@ static void view_program(const rw_profile *profile, const char *structure, int32
     options->structure = structure;
     commit->threads = 1;
     NEED_OK(rw_scene_commit(scene, NULL));
-    NEED_OK(rw_view_create(scene, options, commit, &view));
-    ask_singly(NULL, view);
-    ask_in_batches(NULL, view);
-    ask_why(NULL, view, structure);
-    rw_view_release(view);
+    NEED_OK(rw_scene_view(scene, options, commit, &view));
+    ask_singly(view);
+    ask_in_batches(view);
+    ask_why(view, structure);
+    rw_scene_release(view);
     rw_scene_release(scene);
 }
 
@@ -413,7 +439,7 @@ static void file_program(void) {
     triangles->flags = RW_TRIANGLES_SHARED;
     CHECK_OK(rw_scene_add_triangles(scene, triangles, NULL));
     NEED_OK(rw_scene_commit(scene, NULL));
-    CHECK_OK(rw_scene_intersect(scene, &down, &hit));
+    CHECK_OK(rw_scene_intersect(scene, &down, NULL, &hit));
     CHECK(hit.t == 2.0);
     rw_scene_release(scene);
     rw_mesh_release(mesh);

@@ -169,17 +169,17 @@ int check_same_answers(const rw_scene* scene, const rw_scene* judge, const std::
     int hits = 0;
     for (const rw_ray& ray : rays) {
         rw_hit expected, found;
-        CHECK_OK(rw_scene_intersect(judge, &ray, &expected));
-        CHECK_OK(rw_scene_intersect(scene, &ray, &found));
+        CHECK_OK(rw_scene_intersect(judge, &ray, nullptr, &expected));
+        CHECK_OK(rw_scene_intersect(scene, &ray, nullptr, &found));
         CHECK(same_bits(expected, found));
         hits += expected.primitive != RW_INVALID_ID ? 1 : 0;
         int32_t occluded = 9;
-        CHECK_OK(rw_scene_occluded(scene, &ray, &occluded));
+        CHECK_OK(rw_scene_occluded(scene, &ray, nullptr, &occluded));
         CHECK(occluded == (expected.primitive != RW_INVALID_ID ? 1 : 0));
         std::vector<rw_hit> all(2000), all_found(2000);
         uint64_t count = 0, found_count = 0;
-        CHECK_OK(rw_scene_intersect_all(judge, &ray, all.data(), all.size(), &count));
-        CHECK_OK(rw_scene_intersect_all(scene, &ray, all_found.data(), all_found.size(), &found_count));
+        CHECK_OK(rw_scene_intersect_all(judge, &ray, nullptr, all.data(), all.size(), &count));
+        CHECK_OK(rw_scene_intersect_all(scene, &ray, nullptr, all_found.data(), all_found.size(), &found_count));
         CHECK(count == found_count && memcmp(all.data(), all_found.data(), count * sizeof(rw_hit)) == 0);
     }
     rw_rays in{};
@@ -406,7 +406,7 @@ void empty_scenes_and_views() {
     CHECK_OK(rw_scene_refit(empty, nullptr, 0, nullptr, &refitted));
     const rw_ray ray = random_ray();
     int32_t occluded = 9;
-    CHECK_OK(rw_scene_occluded(refitted, &ray, &occluded));
+    CHECK_OK(rw_scene_occluded(refitted, &ray, nullptr, &occluded));
     CHECK(occluded == 0);
     rw_scene_release(refitted);
     rw_scene_release(empty);
@@ -420,24 +420,24 @@ void empty_scenes_and_views() {
     options.struct_size = sizeof options;
     options.origin[2] = 4.0;
     options.count = 1000;
-    rw_view *old_view = nullptr, *view = nullptr;
-    NEED_OK(rw_view_create(scene, &options, nullptr, &old_view));
-    NEED_OK(rw_view_create(moved, &options, nullptr, &view));
+    rw_scene *old_view = nullptr, *view = nullptr;
+    NEED_OK(rw_scene_view(scene, &options, nullptr, &old_view));
+    NEED_OK(rw_scene_view(moved, &options, nullptr, &view));
     int differ = 0;
     for (int i = 0; i < 200; ++i) {
         rw_ray aimed = random_ray();
         for (int axis = 0; axis < 3; ++axis) aimed.origin[axis] = options.origin[axis];
         aimed.direction[2] = -3.0;
         rw_hit from_scene, from_view, before;
-        CHECK_OK(rw_scene_intersect(moved, &aimed, &from_scene));
-        CHECK_OK(rw_view_intersect(view, &aimed, &from_view));
-        CHECK_OK(rw_view_intersect(old_view, &aimed, &before));
+        CHECK_OK(rw_scene_intersect(moved, &aimed, nullptr, &from_scene));
+        CHECK_OK(rw_scene_intersect(view, &aimed, nullptr, &from_view));
+        CHECK_OK(rw_scene_intersect(old_view, &aimed, nullptr, &before));
         CHECK(same_bits(from_scene, from_view));
         differ += same_bits(from_view, before) ? 0 : 1;
     }
     CHECK(differ > 0);
-    rw_view_release(view);
-    rw_view_release(old_view);
+    rw_scene_release(view);
+    rw_scene_release(old_view);
     rw_scene_release(moved);
     rw_scene_release(scene);
 }

@@ -44,7 +44,7 @@ static void make_cases(const rw_scene *scene) {
         rw_hit hits[ROOM];
         uint64_t needed = 0;
         rays[i] = random_ray();
-        NEED_OK(rw_scene_intersect_all(scene, &rays[i], hits, ROOM, &needed));
+        NEED_OK(rw_scene_intersect_all(scene, &rays[i], NULL, hits, ROOM, &needed));
         skip_count[i] = i % MOST;
         for (k = 0; k < skip_count[i]; ++k) {
             rw_primitive_id *id = &skipped[i][k];
@@ -113,8 +113,8 @@ static void find_wanted(const rw_scene *scene) {
     for (i = 0; i < RAYS; ++i) {
         rw_hit hits[ROOM];
         uint64_t needed = 0, k;
-        const rw_hit miss = {INFINITY, 0, 0, {0, 0, 0}, RW_INVALID_ID, RW_INVALID_ID, RW_INVALID_ID, 0};
-        NEED_OK(rw_scene_intersect_all(scene, &rays[i], hits, ROOM, &needed));
+        const rw_hit miss = {INFINITY, 0, 0, RW_INVALID_ID, RW_INVALID_ID, RW_INVALID_ID, 0};
+        NEED_OK(rw_scene_intersect_all(scene, &rays[i], NULL, hits, ROOM, &needed));
         wanted_count[i] = 0;
         for (k = 0; k < needed; ++k) {
             if (!is_skipped(i, &hits[k])) wanted_all[i][wanted_count[i]++] = hits[k];
@@ -123,7 +123,7 @@ static void find_wanted(const rw_scene *scene) {
     }
 }
 
-static void check_single(const rw_scene *scene, const rw_view *view) {
+static void check_single(const rw_scene *scene, const rw_scene *view) {
     uint32_t i;
     for (i = 0; i < RAYS; ++i) {
         rw_ray_options options;
@@ -135,13 +135,13 @@ static void check_single(const rw_scene *scene, const rw_view *view) {
         options.skip = skip_count[i] > 0 ? skipped[i] : NULL;
         memset(&hit, 1, sizeof hit);
         if (view == NULL) {
-            CHECK_OK(rw_scene_intersect_with(scene, &rays[i], &options, &hit));
-            CHECK_OK(rw_scene_occluded_with(scene, &rays[i], &options, &occluded));
-            CHECK_OK(rw_scene_intersect_all_with(scene, &rays[i], &options, hits, ROOM, &needed));
+            CHECK_OK(rw_scene_intersect(scene, &rays[i], &options, &hit));
+            CHECK_OK(rw_scene_occluded(scene, &rays[i], &options, &occluded));
+            CHECK_OK(rw_scene_intersect_all(scene, &rays[i], &options, hits, ROOM, &needed));
         } else {
-            CHECK_OK(rw_view_intersect_with(view, &rays[i], &options, &hit));
-            CHECK_OK(rw_view_occluded_with(view, &rays[i], &options, &occluded));
-            CHECK_OK(rw_view_intersect_all_with(view, &rays[i], &options, hits, ROOM, &needed));
+            CHECK_OK(rw_scene_intersect(view, &rays[i], &options, &hit));
+            CHECK_OK(rw_scene_occluded(view, &rays[i], &options, &occluded));
+            CHECK_OK(rw_scene_intersect_all(view, &rays[i], &options, hits, ROOM, &needed));
         }
         CHECK(memcmp(&hit, &wanted_closest[i], sizeof hit) == 0);
         CHECK(occluded == (wanted_count[i] > 0));
@@ -150,7 +150,7 @@ static void check_single(const rw_scene *scene, const rw_view *view) {
 }
 
 /* With offsets, and ids of either type. */
-static void check_batches(const rw_scene *scene, const rw_view *view, const soup *s) {
+static void check_batches(const rw_scene *scene, const rw_scene *view, const soup *s) {
     static uint64_t offsets[RAYS + 1], found[RAYS + 1];
     static uint32_t geometry[RAYS * MOST];
     static uint64_t primitive[RAYS * MOST];
@@ -184,8 +184,8 @@ static void check_batches(const rw_scene *scene, const rw_view *view, const soup
             CHECK_OK(rw_scene_intersect_batch(scene, &in, &hits, &query));
             CHECK_OK(rw_scene_occluded_batch(scene, &in, &flags, &query));
         } else {
-            CHECK_OK(rw_view_intersect_batch(view, &in, &hits, &query));
-            CHECK_OK(rw_view_occluded_batch(view, &in, &flags, &query));
+            CHECK_OK(rw_scene_intersect_batch(view, &in, &hits, &query));
+            CHECK_OK(rw_scene_occluded_batch(view, &in, &flags, &query));
         }
         for (i = 0; i < RAYS; ++i) {
             CHECK(same_as(&out, i, &wanted_closest[i]));
@@ -194,7 +194,7 @@ static void check_batches(const rw_scene *scene, const rw_view *view, const soup
         if (view == NULL) {
             CHECK_OK(rw_scene_intersect_all_batch(scene, &in, found, &hits, RAYS * ROOM, &needed, &query));
         } else {
-            CHECK_OK(rw_view_intersect_all_batch(view, &in, found, &hits, RAYS * ROOM, &needed, &query));
+            CHECK_OK(rw_scene_intersect_all_batch(view, &in, found, &hits, RAYS * ROOM, &needed, &query));
         }
         for (i = 0; i < RAYS; ++i) {
             if (!CHECK(found[i + 1] - found[i] == wanted_count[i])) continue;
@@ -223,7 +223,7 @@ static void check_relaunch(const rw_scene *scene) {
     for (i = 0; i < RAYS; ++i) {
         rw_hit all[ROOM];
         uint64_t needed = 0;
-        CHECK_OK(rw_scene_intersect_all(scene, &rays[i], all, ROOM, &needed));
+        CHECK_OK(rw_scene_intersect_all(scene, &rays[i], NULL, all, ROOM, &needed));
         CHECK(needed < 2 ? second.primitive[i] == RW_INVALID_ID : same_as(&second, i, &all[1]));
     }
 }
@@ -244,25 +244,24 @@ static void check_mistakes(const rw_scene *scene) {
     options.struct_size = sizeof options;
     options.skip_count = 3;
     options.skip = NULL;
-    CHECK_ERROR(rw_scene_intersect_with(scene, &rays[0], &options, &hit), RW_ERROR_INVALID_ARGUMENT,
-                "options.skip|NULL");
+    CHECK_ERROR(rw_scene_intersect(scene, &rays[0], &options, &hit), RW_ERROR_INVALID_ARGUMENT, "options.skip|NULL");
     options.skip = ids;
     ids[2].geometry = 2;
-    CHECK_ERROR(rw_scene_intersect_with(scene, &rays[0], &options, &hit), RW_ERROR_INDEX_OUT_OF_RANGE,
+    CHECK_ERROR(rw_scene_intersect(scene, &rays[0], &options, &hit), RW_ERROR_INDEX_OUT_OF_RANGE,
                 "options.skip[2]|geometry 2|has 2");
     ids[2].geometry = 1;
     ids[2].primitive = TRIANGLES;
-    CHECK_ERROR(rw_scene_occluded_with(scene, &rays[0], &options, &occluded), RW_ERROR_INDEX_OUT_OF_RANGE,
+    CHECK_ERROR(rw_scene_occluded(scene, &rays[0], &options, &occluded), RW_ERROR_INDEX_OUT_OF_RANGE,
                 "options.skip[2]|primitive 60|geometry 1 has 60 triangles");
     ids[2].primitive = 0;
     ids[1].instance = 0;
-    CHECK_ERROR(rw_scene_occluded_with(scene, &rays[0], &options, &occluded), RW_ERROR_INDEX_OUT_OF_RANGE,
+    CHECK_ERROR(rw_scene_occluded(scene, &rays[0], &options, &occluded), RW_ERROR_INDEX_OUT_OF_RANGE,
                 "options.skip[1]|instance 0|no instances");
     options.struct_size = 3;
-    CHECK_ERROR(rw_scene_occluded_with(scene, &rays[0], &options, &occluded), RW_ERROR_INVALID_ARGUMENT,
+    CHECK_ERROR(rw_scene_occluded(scene, &rays[0], &options, &occluded), RW_ERROR_INVALID_ARGUMENT,
                 "options: struct_size is 3");
-    CHECK_ERROR(rw_scene_intersect_with(scene, &rays[0], NULL, NULL), RW_ERROR_INVALID_ARGUMENT, "hit|NULL");
-    CHECK_ERROR(rw_scene_intersect_all_with(scene, NULL, NULL, NULL, 0, NULL), RW_ERROR_INVALID_ARGUMENT, "ray|NULL");
+    CHECK_ERROR(rw_scene_intersect(scene, &rays[0], NULL, NULL), RW_ERROR_INVALID_ARGUMENT, "hit|NULL");
+    CHECK_ERROR(rw_scene_intersect_all(scene, NULL, NULL, NULL, 0, NULL), RW_ERROR_INVALID_ARGUMENT, "ray|NULL");
     CHECK(occluded == 77 && hit.primitive == 0x07070707u);
 
     for (i = 0; i < RAYS; ++i) {
@@ -304,7 +303,7 @@ int main(void) {
     check_mistakes(scan);
     NEED_OK(rw_structure_count(&structures));
     for (i = 0; i < structures; ++i) {
-        rw_view *view = NULL;
+        rw_scene *view = NULL;
         rw_view_options options;
         const char *name = NULL;
         rw_scene *scene;
@@ -315,13 +314,13 @@ int main(void) {
         options.count = RAYS;
         options.structure = name;
         memcpy(options.origin, rays[3].origin, sizeof options.origin);
-        NEED_OK(rw_view_create(scene, &options, NULL, &view));
+        NEED_OK(rw_scene_view(scene, &options, NULL, &view));
         check_single(scene, NULL);
         check_single(scene, view);
         check_batches(scene, NULL, &s);
         check_batches(scene, view, &s);
         check_relaunch(scene);
-        rw_view_release(view);
+        rw_scene_release(view);
         rw_scene_release(scene);
     }
     rw_scene_release(scan);

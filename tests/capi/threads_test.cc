@@ -22,8 +22,8 @@ rw_scene* make_alone(const soup& s, const char* structure) {
     return scene;
 }
 
-rw_view* make_view(const rw_scene* scene) {
-    rw_view* view = nullptr;
+rw_scene* make_view(const rw_scene* scene) {
+    rw_scene* view = nullptr;
     rw_view_options options{};
     rw_commit_options commit{};
     options.struct_size = sizeof options;
@@ -31,11 +31,11 @@ rw_view* make_view(const rw_scene* scene) {
     options.origin[2] = 3.0;
     commit.struct_size = sizeof commit;
     commit.threads = 1;
-    return rw_view_create(scene, &options, &commit, &view) == RW_OK ? view : nullptr;
+    return rw_scene_view(scene, &options, &commit, &view) == RW_OK ? view : nullptr;
 }
 
 // What one thread does; tells how often something was wrong.
-int work(const rw_scene* scene, const rw_view* view, const soup& s, const std::vector<rw_ray>& rays,
+int work(const rw_scene* scene, const rw_scene* view, const soup& s, const std::vector<rw_ray>& rays,
          const std::vector<rw_hit>& wanted, int number) {
     int wrong = 0;
     const auto expect = [&wrong](bool good) { wrong += good ? 0 : 1; };
@@ -45,10 +45,11 @@ int work(const rw_scene* scene, const rw_view* view, const soup& s, const std::v
         uint64_t needed = 0;
         const rw_ray& ray = rays[(i * 7 + static_cast<std::size_t>(number)) % rays.size()];
         const rw_hit& right = wanted[(i * 7 + static_cast<std::size_t>(number)) % rays.size()];
-        expect(rw_scene_intersect(scene, &ray, &hit) == RW_OK && memcmp(&hit, &right, sizeof hit) == 0);
-        expect(rw_view_intersect(view, &ray, &hit) == RW_OK && memcmp(&hit, &right, sizeof hit) == 0);
-        expect(rw_scene_occluded(scene, &ray, &any) == RW_OK && any == (right.primitive != RW_INVALID_ID ? 1 : 0));
-        expect(rw_scene_intersect_all(scene, &ray, nullptr, 0, &needed) == RW_OK);
+        expect(rw_scene_intersect(scene, &ray, nullptr, &hit) == RW_OK && memcmp(&hit, &right, sizeof hit) == 0);
+        expect(rw_scene_intersect(view, &ray, nullptr, &hit) == RW_OK && memcmp(&hit, &right, sizeof hit) == 0);
+        expect(rw_scene_occluded(scene, &ray, nullptr, &any) == RW_OK &&
+               any == (right.primitive != RW_INVALID_ID ? 1 : 0));
+        expect(rw_scene_intersect_all(scene, &ray, nullptr, nullptr, 0, &needed) == RW_OK);
     }
     std::vector<double> t(rays.size());
     rw_rays batch{};
@@ -86,9 +87,9 @@ int work(const rw_scene* scene, const rw_view* view, const soup& s, const std::v
     expect(rw_scene_explain(scene, RW_FORMAT_JSON, nullptr, 0, &needed) == RW_OK && needed > 1);
     own = make_alone(s, number % 2 == 0 ? "bvh" : "uniform_grid");
     expect(own != nullptr);
-    rw_view* own_view = make_view(scene);
+    rw_scene* own_view = make_view(scene);
     expect(own_view != nullptr);
-    rw_view_release(own_view);
+    rw_scene_release(own_view);
     rw_scene_release(own);
     return wrong;
 }
@@ -107,10 +108,11 @@ int main() {
         NEED_OK(rw_structure_name(k, &name));
         rw_scene* scene = make_alone(s, name);
         CHECK(scene != nullptr);
-        rw_view* view = make_view(scene);
+        rw_scene* view = make_view(scene);
         CHECK(view != nullptr);
         std::vector<rw_hit> wanted(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) CHECK_OK(rw_scene_intersect(scene, &rays[i], &wanted[i]));
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            CHECK_OK(rw_scene_intersect(scene, &rays[i], nullptr, &wanted[i]));
         std::atomic<int> wrong{0};
         std::vector<std::thread> threads;
         for (int number = 0; number < 4; ++number) {
@@ -124,9 +126,9 @@ int main() {
         CHECK(statistics.rays == 4 * rays.size());
         rw_scene_release(scene); // the view keeps it
         rw_hit hit;
-        CHECK_OK(rw_view_intersect(view, &rays[0], &hit));
+        CHECK_OK(rw_scene_intersect(view, &rays[0], nullptr, &hit));
         CHECK(memcmp(&hit, &wanted[0], sizeof hit) == 0);
-        rw_view_release(view);
+        rw_scene_release(view);
     }
     free_soup(&s);
     return finish("threads");

@@ -49,10 +49,10 @@ def main():
             if found(path, pattern) != [wanted]:
                 wrong.append(f"{path}: {pattern} finds {found(path, pattern)}, not {wanted}")
 
-    functions = len(re.findall(r"^RW_API ", text_of(HEADER), flags=re.MULTILINE))
-    since = found(HEADER, r"Since:? (\d+\.\d+)")
-    if len(since) < functions:
-        wrong.append(f"{HEADER}: {functions} functions, and {len(since)} say since when")
+    # The header says at the top since when all is there, and where a function or a member is younger.
+    since = found(HEADER, r"[Ss]ince:? (\d+\.\d+)")
+    if not found(HEADER, r"\* - Since\. All is there since (\d+\.\d+),"):
+        wrong.append(f"{HEADER}: it does not say since when all is there")
     later = sorted({each for each in since if tuple(map(int, each.split("."))) > tuple(map(int, minor.split(".")))})
     if later:
         wrong.append(f"{HEADER}: since {', '.join(later)}, and this is {version}")

@@ -3,8 +3,8 @@
 // Reading a file neither makes meshes nor rays, so it never depends on the machine; expand.h does that.
 #pragma once
 
-#include "base/ray.h"
 #include "contract/expectation.h"
+#include "ray/ray.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -4,8 +4,8 @@
 // make an answer better. What a library has no call for it declares in its Capabilities, so that it is skipped, not failed.
 #pragma once
 
-#include "base/ray.h"
 #include "base/vec.h"
+#include "ray/ray.h"
 
 #include <array>
 #include <cstdint>

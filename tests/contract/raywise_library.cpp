@@ -17,10 +17,8 @@ void check(std::int32_t status, const char* call) {
 
 struct Release {
     void operator()(rw_scene* scene) const { rw_scene_release(scene); }
-    void operator()(rw_view* view) const { rw_view_release(view); }
 };
 using SceneHandle = std::unique_ptr<rw_scene, Release>;
-using ViewHandle = std::unique_ptr<rw_view, Release>;
 
 rw_ray to_c(const Ray& ray) {
     return {{ray.origin.x, ray.origin.y, ray.origin.z},
@@ -76,44 +74,28 @@ SceneHandle commit(const std::vector<Mesh>& meshes, const char* structure) {
     return scene;
 }
 
-// The C calls of scenes and of views, so that one class asks both.
-struct SceneCalls {
-    using Handle = const rw_scene*;
-    static constexpr auto intersect = rw_scene_intersect;
-    static constexpr auto occluded = rw_scene_occluded;
-    static constexpr auto intersect_all = rw_scene_intersect_all;
-    static constexpr auto intersect_batch = rw_scene_intersect_batch;
-};
-struct ViewCalls {
-    using Handle = const rw_view*;
-    static constexpr auto intersect = rw_view_intersect;
-    static constexpr auto occluded = rw_view_occluded;
-    static constexpr auto intersect_all = rw_view_intersect_all;
-    static constexpr auto intersect_batch = rw_view_intersect_batch;
-};
-
-template <class Calls>
 struct Questions {
-    using Handle = typename Calls::Handle;
+    using Handle = const rw_scene*;
 
     static Answer closest(Handle handle, const Ray& ray) {
         const rw_ray asked = to_c(ray);
         rw_hit hit{};
-        check(Calls::intersect(handle, &asked, &hit), "intersect");
+        check(rw_scene_intersect(handle, &asked, nullptr, &hit), "intersect");
         return from_c(hit);
     }
     static bool any(Handle handle, const Ray& ray) {
         const rw_ray asked = to_c(ray);
         std::int32_t occluded = 0;
-        check(Calls::occluded(handle, &asked, &occluded), "occluded");
+        check(rw_scene_occluded(handle, &asked, nullptr, &occluded), "occluded");
         return occluded != 0;
     }
     static std::vector<Answer> all(Handle handle, const Ray& ray) {
         const rw_ray asked = to_c(ray);
         std::uint64_t needed = 0;
-        check(Calls::intersect_all(handle, &asked, nullptr, 0, &needed), "intersect_all");
+        check(rw_scene_intersect_all(handle, &asked, nullptr, nullptr, 0, &needed), "intersect_all");
         std::vector<rw_hit> hits(needed);
-        if (needed > 0) check(Calls::intersect_all(handle, &asked, hits.data(), needed, &needed), "intersect_all");
+        if (needed > 0)
+            check(rw_scene_intersect_all(handle, &asked, nullptr, hits.data(), needed, &needed), "intersect_all");
         std::vector<Answer> answers;
         for (const rw_hit& hit : hits) answers.push_back(from_c(hit));
         return answers;
@@ -143,7 +125,7 @@ struct Questions {
         out.primitive.data = &answers[0].primitive;
         out.geometry.type = out.primitive.type = RW_UINT32;
         for (rw_output* output : {&out.t, &out.uv, &out.geometry, &out.primitive}) output->stride = sizeof(rw_hit);
-        check(Calls::intersect_batch(handle, &in, &out, nullptr), "intersect_batch");
+        check(rw_scene_intersect_batch(handle, &in, &out, nullptr), "intersect_batch");
         std::vector<Answer> converted;
         for (const rw_hit& hit : answers) converted.push_back(from_c(hit));
         return converted;
@@ -161,7 +143,7 @@ public:
     }
 
 private:
-    using Ask = Questions<SceneCalls>;
+    using Ask = Questions;
     SceneHandle scene_;
 };
 
@@ -182,7 +164,7 @@ bool same(const std::vector<Answer>& a, const std::vector<Answer>& b) {
 // Asks every ray of a view from its origin and of a view along its direction, and insists that both say the same bits. Only
 // so many views are made; later rays ask views that were made for others, which has to make no difference.
 class ViewScene : public Scene {
-    using Ask = Questions<ViewCalls>;
+    using Ask = Questions;
     static constexpr std::size_t most_views = 12;
 
     template <class Question>
@@ -193,7 +175,7 @@ class ViewScene : public Scene {
         return from_point;
     }
 
-    const rw_view* view(std::int32_t kind, Vec3 place) {
+    const rw_scene* view(std::int32_t kind, Vec3 place) {
         const bool usable = is_finite(place) && (kind == RW_VIEW_POINT || place != Vec3(0.0));
         auto& views = views_[kind];
         if (!usable) place = Vec3(0.0, 0.0, 1.0);
@@ -208,32 +190,32 @@ class ViewScene : public Scene {
         options.structure = structure_;
         double* const target = kind == RW_VIEW_POINT ? options.origin : options.direction;
         for (int axis = 0; axis < 3; ++axis) target[axis] = place[axis];
-        rw_view* created = nullptr;
-        check(rw_view_create(scene_.get(), &options, nullptr, &created), "rw_view_create");
-        return views.emplace(key, ViewHandle(created)).first->second.get();
+        rw_scene* created = nullptr;
+        check(rw_scene_view(scene_.get(), &options, nullptr, &created), "rw_scene_view");
+        return views.emplace(key, SceneHandle(created)).first->second.get();
     }
 
 public:
     ViewScene(SceneHandle scene, const char* structure) : scene_(std::move(scene)), structure_(structure) {}
 
     Answer closest(const Ray& ray) override {
-        return both(ray, [&](const rw_view* view) { return Ask::closest(view, ray); });
+        return both(ray, [&](const rw_scene* view) { return Ask::closest(view, ray); });
     }
     bool any(const Ray& ray) override {
-        return both(ray, [&](const rw_view* view) { return Ask::any(view, ray); });
+        return both(ray, [&](const rw_scene* view) { return Ask::any(view, ray); });
     }
     void all(const Ray& ray, std::vector<Answer>& answers) override {
-        answers = both(ray, [&](const rw_view* view) { return Ask::all(view, ray); });
+        answers = both(ray, [&](const rw_scene* view) { return Ask::all(view, ray); });
     }
     void closest_batch(const std::vector<Ray>& rays, std::vector<Answer>& answers) override {
         answers = both(rays.empty() ? Ray{} : rays.front(),
-                       [&](const rw_view* view) { return Ask::closest_batch(view, rays); });
+                       [&](const rw_scene* view) { return Ask::closest_batch(view, rays); });
     }
 
 private:
     SceneHandle scene_;
     const char* structure_;
-    std::map<std::int32_t, std::map<std::array<double, 3>, ViewHandle>> views_; // released before the scene
+    std::map<std::int32_t, std::map<std::array<double, 3>, SceneHandle>> views_; // released before the scene
 };
 
 // What the header promises.

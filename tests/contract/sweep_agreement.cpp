@@ -158,7 +158,7 @@ private:
         std::vector<Ray> traceable;
         for (std::size_t i = 0; i < rays.size() && traceable.size() < judge_rays; i += rays.size() / (2 * judge_rays)) {
             const Ray ray{origin_of(rays[i]), rays[i].tmin, counted(direction_of(rays[i])), rays[i].tmax};
-            if (PreparedRay::is_traceable(ray)) traceable.push_back(ray);
+            if (ray.is_traceable()) traceable.push_back(ray);
         }
         const oracle::Comparison comparison = oracle::compare_with_judge(scene_.mesh, traceable);
         count_.judge_rays += comparison.rays;

@@ -11,10 +11,8 @@ namespace raywise::sweep {
 
 struct Releaser {
     void operator()(rw_scene* scene) const { rw_scene_release(scene); }
-    void operator()(rw_view* view) const { rw_view_release(view); }
 };
 using SceneHandle = std::unique_ptr<rw_scene, Releaser>;
-using ViewHandle = std::unique_ptr<rw_view, Releaser>;
 
 inline void must(std::int32_t status, const char* call) {
     if (status == RW_OK) return;

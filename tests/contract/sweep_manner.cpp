@@ -129,7 +129,6 @@ rw_hits described(std::vector<rw_hit>& hits, const Arranged& arranged) {
     rw_hit& first = hits[0];
     described.t = arranged.output(&first.t, stride, RW_FLOAT64);
     described.uv = arranged.output(&first.u, stride, RW_FLOAT64);
-    described.normal = arranged.output(first.normal, stride, RW_FLOAT64);
     described.instance = arranged.output(&first.instance, stride, RW_UINT32);
     described.geometry = arranged.output(&first.geometry, stride, RW_UINT32);
     described.primitive = arranged.output(&first.primitive, stride, RW_UINT32);

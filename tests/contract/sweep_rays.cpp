@@ -1,5 +1,7 @@
 #include "contract/sweep_rays.h"
 
+#include "geometry/primitives.h"
+
 #include <cmath>
 #include <limits>
 
@@ -274,7 +276,9 @@ rw_ray RayMaker::from_hit(const rw_ray& ray, const rw_hit& hit) {
             return ray_of(point, random_.one_in(2) ? scene_.sun : -scene_.sun);
         default: {
             // A point of the unit sphere on top of the surface: the cosine distribution.
-            const Vec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
+            const auto& [a, b, c] = scene_.mesh.triangles[hit.primitive];
+            const auto& at = scene_.mesh.vertices;
+            const Vec3 normal = unit_normal({at[a], at[b], at[c]});
             const Vec3 facing = glm::dot(normal, direction_of(ray)) > 0.0 ? -normal : normal;
             const Vec3 direction = facing + random_.direction();
             return ray_of(point, direction == Vec3(0.0) ? facing : direction);

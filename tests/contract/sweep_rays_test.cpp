@@ -90,7 +90,13 @@ TEST(RayMaker, EndsIntervalsExactlyAtAHit) {
     const rw_ray ray = ray_of(Vec3(0.1, 0.2, -3.0), Vec3(0.0, 0.0, 1.0));
     rw_hit hit{};
     hit.t = 2.0;
-    hit.normal[2] = -1.0;
+    // Its triangle is one whose normal points against the ray.
+    const auto& at = scene.mesh.vertices;
+    const auto faces_ray = [&](const auto& t) { return unit_normal({at[t[0]], at[t[1]], at[t[2]]}).z == -1.0; };
+    const auto& triangles = scene.mesh.triangles;
+    const auto found = std::find_if(triangles.begin(), triangles.end(), faces_ray);
+    ASSERT_NE(found, triangles.end());
+    hit.primitive = static_cast<std::uint32_t>(found - triangles.begin());
     int ends = 0;
     int begins = 0;
     int diffuse = 0;
@@ -117,7 +123,7 @@ TEST(RayMaker, BadRaysAreMisses) {
     RayMaker maker(scene, random);
     for (int i = 0; i < 200; ++i) {
         const rw_ray ray = maker.bad();
-        if (PreparedRay::is_traceable(as_ray(ray))) {
+        if (as_ray(ray).is_traceable()) {
             // An interval that ends at infinity or begins before everything is none of the bad ones.
             ADD_FAILURE() << text_of(ray);
         }

@@ -16,12 +16,12 @@ void put(double (&to)[3], const Vec3& from) {
     for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
 }
 
-ViewHandle view_of(const rw_scene* scene, rw_view_options options, const char* structure) {
+SceneHandle view_of(const rw_scene* scene, rw_view_options options, const char* structure) {
     options.count = expected_rays;
     options.structure = structure;
-    rw_view* view = nullptr;
-    must(rw_view_create(scene, &options, nullptr, &view), "rw_view_create");
-    return ViewHandle(view);
+    rw_scene* view = nullptr;
+    must(rw_scene_view(scene, &options, nullptr, &view), "rw_scene_view");
+    return SceneHandle(view);
 }
 
 struct NamedView {
@@ -64,7 +64,7 @@ SceneHandle committed_scene(const rw_triangles& triangles, const char* structure
     return scene;
 }
 
-ViewHandle point_view(const rw_scene* scene, const Vec3& point, const char* structure) {
+SceneHandle point_view(const rw_scene* scene, const Vec3& point, const char* structure) {
     rw_view_options options = sized<rw_view_options>();
     options.kind = RW_VIEW_POINT;
     put(options.origin, point);

@@ -1,4 +1,4 @@
-// What is asked: a committed scene or a view, behind the same few calls.
+// What is asked: a committed scene or a view, with its name.
 #pragma once
 
 #include "contract/sweep_handles.h"
@@ -12,7 +12,6 @@ namespace raywise::sweep {
 class Subject {
 public:
     Subject(std::string name, SceneHandle scene) : name_(std::move(name)), scene_(std::move(scene)) {}
-    Subject(std::string name, ViewHandle view) : name_(std::move(name)), view_(std::move(view)) {}
 
     const std::string& name() const { return name_; }
     const rw_scene* scene() const { return scene_.get(); }
@@ -20,39 +19,34 @@ public:
     bool scans() const { return name_ == "linear_scan"; }
 
     std::int32_t closest(const rw_ray* ray, rw_hit* hit) const {
-        return view_ ? rw_view_intersect(view_.get(), ray, hit) : rw_scene_intersect(scene_.get(), ray, hit);
+        return rw_scene_intersect(scene_.get(), ray, nullptr, hit);
     }
     std::int32_t any(const rw_ray* ray, std::int32_t* hit) const {
-        return view_ ? rw_view_occluded(view_.get(), ray, hit) : rw_scene_occluded(scene_.get(), ray, hit);
+        return rw_scene_occluded(scene_.get(), ray, nullptr, hit);
     }
     std::int32_t all(const rw_ray* ray, rw_hit* hits, std::uint64_t capacity, std::uint64_t* needed) const {
-        return view_ ? rw_view_intersect_all(view_.get(), ray, hits, capacity, needed)
-                     : rw_scene_intersect_all(scene_.get(), ray, hits, capacity, needed);
+        return rw_scene_intersect_all(scene_.get(), ray, nullptr, hits, capacity, needed);
     }
     std::int32_t closest_batch(const rw_rays* rays, const rw_hits* hits, const rw_query_options* options) const {
-        return view_ ? rw_view_intersect_batch(view_.get(), rays, hits, options)
-                     : rw_scene_intersect_batch(scene_.get(), rays, hits, options);
+        return rw_scene_intersect_batch(scene_.get(), rays, hits, options);
     }
     std::int32_t any_batch(const rw_rays* rays, const rw_output* hit, const rw_query_options* options) const {
-        return view_ ? rw_view_occluded_batch(view_.get(), rays, hit, options)
-                     : rw_scene_occluded_batch(scene_.get(), rays, hit, options);
+        return rw_scene_occluded_batch(scene_.get(), rays, hit, options);
     }
     std::int32_t all_batch(const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits, std::uint64_t capacity,
                            std::uint64_t* needed, const rw_query_options* options) const {
-        return view_ ? rw_view_intersect_all_batch(view_.get(), rays, offsets, hits, capacity, needed, options)
-                     : rw_scene_intersect_all_batch(scene_.get(), rays, offsets, hits, capacity, needed, options);
+        return rw_scene_intersect_all_batch(scene_.get(), rays, offsets, hits, capacity, needed, options);
     }
 
 private:
     std::string name_;
     SceneHandle scene_;
-    ViewHandle view_;
 };
 
 // A committed scene of a mesh. structure: forced by name; nullptr: the library chooses.
 SceneHandle committed_scene(const rw_triangles& triangles, const char* structure);
 // All around a point. structure: forced by name.
-ViewHandle point_view(const rw_scene* scene, const Vec3& point, const char* structure);
+SceneHandle point_view(const rw_scene* scene, const Vec3& point, const char* structure);
 
 // The names of all structures, and of those that project: made for views.
 std::vector<std::string> structure_names();

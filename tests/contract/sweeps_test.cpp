@@ -44,7 +44,7 @@ TEST(Sweeps, HaveAsManyRaysAsAskedForAndAreTraceable) {
         const std::size_t more = rays_of(sphere, line_of(kind, "5"), false, 9).size();
         EXPECT_EQ(few, lattice ? 25u : 5u) << kind.name;
         EXPECT_EQ(more, lattice ? 169u : 45u) << kind.name;
-        for (const Ray& ray : rays_of(sphere, line_of(kind, "5"))) EXPECT_TRUE(PreparedRay::is_traceable(ray));
+        for (const Ray& ray : rays_of(sphere, line_of(kind, "5"))) EXPECT_TRUE(ray.is_traceable());
     }
 }
 

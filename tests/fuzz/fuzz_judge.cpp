@@ -52,12 +52,12 @@ bool take(const rw_ray& source, Ray& ray) {
     ray.direction = {source.direction[0], source.direction[1], source.direction[2]};
     ray.tmin = source.tmin;
     ray.tmax = source.tmax;
-    if (!PreparedRay::is_traceable(ray)) return false;
+    if (!ray.is_traceable()) return false;
     const double largest = max_component(glm::abs(ray.direction));
     if (largest < 0x1p-600) return false;
     if (max_component(glm::abs(ray.origin)) > 0x1p200) return false;
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::fabs(std::ldexp(ray.direction[axis], -std::ilogb(largest))) < PreparedRay::smallest_direction) {
+        if (std::fabs(std::ldexp(ray.direction[axis], -std::ilogb(largest))) < ExactRay::smallest_direction) {
             ray.direction[axis] = 0.0;
         }
     }

@@ -20,12 +20,36 @@ bool same_bits(const rw_hit& a, const rw_hit& b) { return std::memcmp(&a, &b, si
                            const rw_hit& found) {
     describe(ray);
     fail(
-        "%s, %s: the judge says t %a u %a v %a normal {%a, %a, %a} geometry %u primitive %u, it says t %a u %a v %a "
-        "normal "
-        "{%a, %a, %a} geometry %u primitive %u",
-        asked.name().c_str(), question, wanted.t, wanted.u, wanted.v, wanted.normal[0], wanted.normal[1],
-        wanted.normal[2], wanted.geometry, wanted.primitive, found.t, found.u, found.v, found.normal[0],
-        found.normal[1], found.normal[2], found.geometry, found.primitive);
+        "%s, %s: the judge says t %a u %a v %a geometry %u primitive %u, it says t %a u %a v %a geometry %u primitive "
+        "%u",
+        asked.name().c_str(), question, wanted.t, wanted.u, wanted.v, wanted.geometry, wanted.primitive, found.t,
+        found.u, found.v, found.geometry, found.primitive);
+}
+
+// The same numbers in float32, as far as they are: the answer to those, rounded.
+void ask_narrow(const Asked& asked, const rw_ray& ray, const rw_ray_options* options) {
+    rw_ray_f32 narrow;
+    rw_ray wide;
+    for (int axis = 0; axis < 3; ++axis) {
+        wide.origin[axis] = narrow.origin[axis] = static_cast<float>(ray.origin[axis]);
+        wide.direction[axis] = narrow.direction[axis] = static_cast<float>(ray.direction[axis]);
+    }
+    wide.tmin = narrow.tmin = static_cast<float>(ray.tmin);
+    wide.tmax = narrow.tmax = static_cast<float>(ray.tmax);
+    rw_hit hit;
+    rw_hit_f32 rounded;
+    Outcome("intersect").check(asked.intersect(&wide, options, &hit));
+    Outcome("intersect_f32").check(asked.intersect(&narrow, options, &rounded));
+    const bool same = rounded.t == static_cast<float>(hit.t) && rounded.u == static_cast<float>(hit.u) &&
+                      rounded.v == static_cast<float>(hit.v) && rounded.instance == hit.instance &&
+                      rounded.geometry == hit.geometry && rounded.primitive == hit.primitive;
+    if (!same) {
+        describe(wide);
+        fail("%s: in float32 t %a u %a v %a primitive %u, in float64 t %a u %a v %a primitive %u", asked.name().c_str(),
+             static_cast<double>(rounded.t), static_cast<double>(rounded.u), static_cast<double>(rounded.v),
+             rounded.primitive, hit.t, hit.u, hit.v, hit.primitive);
+    }
+    if (asked.usage() != nullptr && has_nan(wide)) asked.usage()->nan_rays += 2;
 }
 
 void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const Skips& skips,
@@ -37,6 +61,8 @@ void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const Skips& s
     std::memset(&hit, blank, sizeof hit);
     Outcome("intersect").check(asked.intersect(&ray, options, &hit));
     if (!same_bits(hit, closest)) disagree(asked, "closest hit", ray, closest, hit);
+
+    ask_narrow(asked, ray, options);
 
     std::int32_t occluded = 77;
     Outcome("occluded").check(asked.occluded(&ray, options, &occluded));
@@ -75,12 +101,16 @@ struct Query {
         o.parallel_user = loop.user();
         if (input.one_in(2)) o.invalid_rays = &invalid_rays;
         wants_invalid = o.invalid_rays != nullptr;
+        if (input.one_in(4)) o.progress = go_on;
+        if (input.one_in(4)) o.cancel = &cancel;
+        if (o.cancel != nullptr && input.one_in(4)) cancel = input.pick({1, -1, 256});
         options.emplace(input, o);
     }
     const rw_query_options* get() const { return options ? options->get() : nullptr; }
     Outcome outcome() const {
         Outcome outcome("options");
-        return outcome.fails_if(options && options->is_wrong(), RW_ERROR_INVALID_ARGUMENT);
+        return outcome.fails_if(options && options->is_wrong(), RW_ERROR_INVALID_ARGUMENT)
+            .fails_if(cancel != 0, RW_ERROR_CANCELLED);
     }
     void check(bool answered, std::uint64_t nan_count) const {
         if (!options) return;
@@ -93,7 +123,10 @@ struct Query {
         }
     }
 
+    static std::int32_t go_on(void*, double, const char*) { return 0; }
+
     HostLoop loop;
+    std::int32_t cancel = 0; // set before the batch: not a ray is answered
     std::uint64_t invalid_rays = 77;
     bool wants_invalid = false;
     std::optional<CallerStruct<rw_query_options>> options;
@@ -137,11 +170,14 @@ public:
     const rw_hits* get() const { return struct_->get(); }
     const Outcome& outcome() const { return outcome_; }
 
-    void expect(std::uint64_t element, const rw_hit& hit) {
+    // normal_of: a scene of the same meshes.
+    void expect(std::uint64_t element, const rw_hit& hit, const rw_scene* normal_of) {
+        double normal[3] = {0.0, 0.0, 0.0};
+        if (hit.primitive != RW_INVALID_ID) Outcome("normal").check(rw_scene_normal(normal_of, &hit, normal));
         t_.expect_number(element, 0, hit.t);
         uv_.expect_number(element, 0, hit.u);
         uv_.expect_number(element, 1, hit.v);
-        for (int axis = 0; axis < 3; ++axis) normal_.expect_number(element, axis, hit.normal[axis]);
+        for (int axis = 0; axis < 3; ++axis) normal_.expect_number(element, axis, normal[axis]);
         instance_.expect_id(element, hit.instance);
         geometry_.expect_id(element, hit.geometry);
         primitive_.expect_id(element, hit.primitive);
@@ -211,7 +247,7 @@ void ask_intersect_batch(Input& input, const Reference& reference, const std::ve
     arguments.add(outputs.outcome());
     if (!arguments.must_fail()) {
         for (std::size_t i = 0; i < batch.rays().size(); ++i)
-            outputs.expect(i, reference.closest(batch.rays()[i], batch.skips(i)));
+            outputs.expect(i, reference.closest(batch.rays()[i], batch.skips(i)), reference.judge());
     }
     for (const Asked& each : asked) {
         Query query(input);
@@ -286,7 +322,8 @@ void ask_all_batch(Input& input, const Reference& reference, const std::vector<A
         arguments.add(outputs.outcome());
         if (fits && !arguments.must_fail()) {
             for (std::size_t i = 0; i < wanted.size(); ++i) {
-                for (std::size_t k = 0; k < wanted[i].size(); ++k) outputs.expect(offsets[i] + k, wanted[i][k]);
+                for (std::size_t k = 0; k < wanted[i].size(); ++k)
+                    outputs.expect(offsets[i] + k, wanted[i][k], reference.judge());
             }
         }
     }
@@ -373,7 +410,7 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
         arguments.add(outputs.outcome());
         if (!arguments.must_fail()) {
             for (std::size_t i = 0; i < batch.rays().size(); ++i)
-                outputs.expect(i, judge.closest(batch.rays()[i], batch.skips(i)));
+                outputs.expect(i, judge.closest(batch.rays()[i], batch.skips(i)), judge.judge());
         }
         answered = check_batch("once_intersect", arguments, query,
                                rw_once_intersect(first, mesh_count, batch.get(), outputs.get(), options.get()));
@@ -410,9 +447,9 @@ void ask_too_early(Input& input, const rw_scene* scene) {
     const auto refuse = [](const char* call, std::int32_t status) {
         Outcome(call).fails_if(true, RW_ERROR_NOT_COMMITTED).check(status);
     };
-    refuse("intersect", rw_scene_intersect(scene, &ray, &hit));
-    refuse("occluded", rw_scene_occluded(scene, &ray, &occluded));
-    refuse("intersect_all", rw_scene_intersect_all(scene, &ray, &hit, 1, &needed));
+    refuse("intersect", rw_scene_intersect(scene, &ray, nullptr, &hit));
+    refuse("occluded", rw_scene_occluded(scene, &ray, nullptr, &occluded));
+    refuse("intersect_all", rw_scene_intersect_all(scene, &ray, nullptr, &hit, 1, &needed));
     demand(same_bits(hit, untouched) && occluded == 77 && needed == 77,
            "a scene that is not committed wrote an answer");
     double bounds[6] = {7, 7, 7, 7, 7, 7};

@@ -109,7 +109,7 @@ void World::release_scene(std::size_t index) {
 }
 
 void World::release_view(std::size_t index) {
-    for (int i = 0; i < views_[index].held.references; ++i) rw_view_release(views_[index].held.handle);
+    for (int i = 0; i < views_[index].held.references; ++i) rw_scene_release(views_[index].held.handle);
     views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
@@ -352,10 +352,13 @@ void World::look_at_facts() {
 void World::make_view() {
     SceneState* scene = any_scene();
     if (scene == nullptr || views_.size() >= most_handles) return;
+    // Of a view as well.
+    const ViewState* of_view = !views_.empty() && input_.one_in(4) ? &views_[input_.below(views_.size())] : nullptr;
     const StructureChoice choice(input_);
     rw_view_options o{};
     o.kind = input_.one_in(24) ? input_.pick({-1, 2}) : input_.between(0, 1);
-    const rw_ray frame = make_ray(input_, scene->meshes); // its origin and direction are those that rays will have
+    // Its origin and direction are those that rays will have.
+    const rw_ray frame = make_ray(input_, of_view != nullptr ? of_view->reference->meshes() : scene->meshes);
     bool finite = true;
     bool directed = false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -373,13 +376,15 @@ void World::make_view() {
     Build build(input_);
 
     ViewState view;
-    view.reference = scene->reference;
+    view.reference = of_view != nullptr ? of_view->reference : scene->reference;
+    view.memory_limit = of_view != nullptr ? of_view->memory_limit : scene->memory_limit;
     view.forced = choice.name;
     view.held.references = 1;
-    const std::int32_t status = rw_view_create(scene->held.handle, options.get(), build.get(), &view.held.handle);
-    Outcome outcome("view_create");
+    const rw_scene* seen = of_view != nullptr ? of_view->held.handle : scene->held.handle;
+    const std::int32_t status = rw_scene_view(seen, options.get(), build.get(), &view.held.handle);
+    Outcome outcome("scene_view");
     const bool wrong_angle = o.kind == RW_VIEW_POINT && !(o.half_angle >= 0.0 && o.half_angle < 1.5707963267948966);
-    outcome.fails_if(!scene->is_committed(), RW_ERROR_NOT_COMMITTED)
+    outcome.fails_if(of_view == nullptr && !scene->is_committed(), RW_ERROR_NOT_COMMITTED)
         .fails_if(options.is_wrong(), RW_ERROR_INVALID_ARGUMENT)
         .fails_if(o.kind != RW_VIEW_POINT && o.kind != RW_VIEW_DIRECTION, RW_ERROR_INVALID_ARGUMENT)
         .fails_if(o.kind == RW_VIEW_DIRECTION && !directed, RW_ERROR_INVALID_ARGUMENT)
@@ -389,7 +394,7 @@ void World::make_view() {
         .fails_if(choice.is_unknown, RW_ERROR_UNKNOWN_STRUCTURE)
         .fails_if(o.ray_kind < 0 || o.ray_kind > RW_RAYS_DIFFUSE, RW_ERROR_INVALID_ARGUMENT)
         .may_fail_if(o.ray_kind == RW_RAYS_RANDOM || o.ray_kind == RW_RAYS_DIFFUSE, RW_ERROR_INVALID_ARGUMENT)
-        .may_fail_if(scene->memory_limit != 0, RW_ERROR_MEMORY_LIMIT)
+        .may_fail_if(view.memory_limit != 0, RW_ERROR_MEMORY_LIMIT)
         .add(build.outcome());
     const bool made = outcome.check(status);
     build.check(made);
@@ -415,7 +420,7 @@ void World::keep_and_give_back() {
         case 1:
             if (!views_.empty()) {
                 ViewState& view = views_[input_.below(views_.size())];
-                Outcome("view_retain").check(rw_view_retain(view.held.handle));
+                Outcome("view_retain").check(rw_scene_retain(view.held.handle));
                 ++view.held.references;
             }
             break;
@@ -436,7 +441,6 @@ void World::keep_and_give_back() {
             break;
         default:
             Outcome("release nothing").check(rw_scene_release(nullptr));
-            Outcome("release nothing").check(rw_view_release(nullptr));
             Outcome("release nothing").check(rw_profile_release(nullptr));
             Outcome("release nothing").check(rw_mesh_release(nullptr));
             break;

@@ -30,9 +30,10 @@ struct SceneState {
 };
 
 struct ViewState {
-    Held<rw_view> held;
+    Held<rw_scene> held;
     std::shared_ptr<const Reference> reference;
     std::string forced;
+    std::uint64_t memory_limit = 0; // of the scene behind it
 };
 
 class World {

@@ -50,9 +50,11 @@ TEST(AreaCheck, IsCertainOnlyOfWhatHasArea) {
                     const LaidOutMesh laid_out(zoo.vertices, zoo.indices, layout);
                     const auto mesh = laid_out.shared();
                     std::vector<std::uint32_t> doubtful;
-                    Box bounds;
-                    check_areas(*mesh, 0, static_cast<std::uint32_t>(count), bounds, doubtful);
+                    Reach reach;
+                    check_areas(*mesh, 0, static_cast<std::uint32_t>(count), reach, doubtful);
+                    const Box& bounds = reach.bounds;
                     Box expected;
+                    double longest = 0.0;
                     std::size_t k = 0;
                     std::size_t without_area = 0;
                     for (std::uint32_t i = 0; i < count; ++i) {
@@ -63,10 +65,15 @@ TEST(AreaCheck, IsCertainOnlyOfWhatHasArea) {
                             ++k;
                         } else {
                             ASSERT_TRUE(has_area) << layout.name << ", triangle " << i << " at " << scale;
-                            for (const Vec3& p : c) expected.extend(p);
+                            Box box;
+                            for (const Vec3& p : c) box.extend(p);
+                            expected.extend(box);
+                            longest = std::max(longest, max_component(box.size()));
                         }
                     }
                     EXPECT_EQ(k, doubtful.size()) << "in order, each once";
+                    EXPECT_GE(reach.largest_extent, longest);
+                    EXPECT_LE(reach.largest_extent, 2.000001 * longest);
                     EXPECT_EQ(bounds.lower, expected.lower) << layout.name << " at " << scale;
                     EXPECT_EQ(bounds.upper, expected.upper) << layout.name << " at " << scale;
                     if (scale == 1.0 && count > 0) {

@@ -1,6 +1,5 @@
-// Boxes, their rounding to float32, and the test that must never leave out a hit.
+// Boxes, and their rounding to float32.
 #include "base/box.h"
-#include "base/ray.h"
 
 #include <gtest/gtest.h>
 
@@ -87,53 +86,6 @@ TEST(Rounding, HoldsForWholeBoxes) {
 TEST(Rounding, KeepsEmptyBoxesEmpty) {
     const BoxF box = round_outwards(Box{});
     EXPECT_GT(box.lower.x, box.upper.x);
-}
-
-Ray towards(const Vec3& origin, const Vec3& target) { return {origin, -infinity, target - origin, infinity}; }
-
-TEST(BoxInterval, HoldsEveryPointOfTheBoxWithinTheMargin) {
-    std::mt19937_64 random(2);
-    const auto number = [&random] { return 2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0; };
-    for (int i = 0; i < 20000; ++i) {
-        const double scale = std::ldexp(1.0, static_cast<int>(random() % 80) - 40);
-        Box box;
-        for (int p = 0; p < 2; ++p) box.extend(scale * Vec3(number(), number(), i % 3 == 0 ? 0.0 : number()));
-        const Vec3 inside = box.lower + 0.5 * box.size();
-        Vec3 origin = 4.0 * scale * Vec3(number(), number(), number());
-        if (i % 5 == 0) origin[i % 3] = inside[i % 3];
-        if (origin == inside) continue;
-        const PreparedRay ray(towards(origin, inside), box);
-        double near = 0.0;
-        EXPECT_TRUE(may_hit_box(ray, box, infinity, near)) << i;
-        EXPECT_TRUE(may_hit_box(ray, round_outwards(box), infinity, near)) << i;
-        // 1 for the caller is the point inside.
-        const double t = ray.from_caller(1.0);
-        EXPECT_LE(near, t + ray.margin);
-        EXPECT_TRUE(may_hit_box(ray, box, t, near)) << "a limit at the hit itself";
-    }
-}
-
-TEST(BoxInterval, LeavesOutWhatIsFarOff) {
-    const Box box{{0, 0, 0}, {1, 1, 1}};
-    double near = 0.0;
-    const auto hits = [&](const Ray& ray) { return may_hit_box(PreparedRay(ray, box), box, ray.tmax, near); };
-    EXPECT_FALSE(hits({{2, 2, 2}, 0.0, {1, 0, 0}, infinity}));
-    EXPECT_FALSE(hits({{-2, 0.5, 0.5}, 0.0, {-1, 0, 0}, infinity})) << "behind the origin";
-    EXPECT_FALSE(hits({{-2, 0.5, 0.5}, 0.0, {1, 0, 0}, 1.5})) << "beyond tmax";
-    for (const double zero : {0.0, -0.0}) {
-        EXPECT_FALSE(hits({{-2, 1.5, 0.5}, 0.0, {1, zero, zero}, infinity})) << "along an axis, beside the box";
-        EXPECT_FALSE(hits({{-2, -0.5, 0.5}, 0.0, {1, zero, zero}, infinity}));
-        EXPECT_FALSE(hits({{0.5, 0.5, 7}, 0.0, {1, zero, zero}, infinity}));
-        EXPECT_TRUE(hits({{-2, 1.0, 0.5}, 0.0, {1, zero, zero}, infinity})) << "in the plane of a face";
-        EXPECT_TRUE(hits({{-2, 0.0, 0.0}, 0.0, {1, zero, zero}, infinity})) << "along an edge";
-        EXPECT_TRUE(hits({{0.5, 0.5, 0.5}, 0.0, {zero, zero, 1}, infinity})) << "from within";
-    }
-}
-
-TEST(BoxInterval, MeetsNothingInAnEmptyBox) {
-    const PreparedRay ray({{0, 0, 0}, 0.0, {1, 1, 1}, infinity}, {Vec3(-1), Vec3(1)});
-    const Interval interval = box_interval(ray, Box{});
-    EXPECT_FALSE(interval.near <= interval.far);
 }
 
 } // namespace

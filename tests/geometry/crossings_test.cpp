@@ -21,18 +21,18 @@ public:
 
     // Every hit, sorted; edges and corners as often as there are triangles at them.
     std::vector<PrimitiveHit> touches(const Ray& ray) const {
-        const PreparedRay prepared(ray, primitives_.bounds());
+        const ExactRay exact(ray);
         std::vector<PrimitiveHit> hits;
         for (std::uint32_t i = 0; i < primitives_.count(); ++i) {
             PrimitiveHit hit;
-            if (primitives_.test(prepared, i, hit)) hits.push_back(hit);
+            if (primitives_.test(exact, i, hit)) hits.push_back(hit);
         }
         std::sort(hits.begin(), hits.end());
         return hits;
     }
     std::vector<PrimitiveHit> crossings(const Ray& ray) const {
         std::vector<PrimitiveHit> hits = touches(ray);
-        keep_crossings(PreparedRay(ray, primitives_.bounds()), primitives_, hits);
+        keep_crossings(ExactRay(ray), primitives_, hits);
         return hits;
     }
 

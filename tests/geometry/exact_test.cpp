@@ -1,8 +1,8 @@
 // The exact weights and normals against fractions: the decision always, the values to a few units in the last place.
 #include "geometry/exact.h"
 
-#include "base/ray.h"
 #include "oracle/judge.h"
+#include "ray/exact_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ double relative_error(double numerator, double denominator, const Fraction& want
 
 // Counts in `met` whether the triangle is met.
 void expect_exact(const Vec3& o, const Vec3& direction, const Vec3 (&p)[3], int& met) {
-    const Vec3 d = PreparedRay({o, 0.0, direction, infinity}, {}).direction;
+    const Vec3 d = ExactRay(Ray{o, 0.0, direction, infinity}).direction;
     const Fraction wanted[3] = {determinant(d, o, p[1], p[2]), determinant(d, o, p[2], p[0]),
                                 determinant(d, o, p[0], p[1])};
     const bool positive = std::any_of(wanted, wanted + 3, [](const Fraction& w) { return w > 0; });

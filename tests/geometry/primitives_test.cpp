@@ -116,7 +116,7 @@ TEST(Primitives, TestsWithinTheIntervalOnly) {
     const Primitives primitives = oracle::primitives_of(oracle::stacked_squares(1)); // at z = 2
     PrimitiveHit hit;
     const auto hits = [&](double tmin, double tmax) {
-        return primitives.test(PreparedRay({{0.5, -0.25, 0}, tmin, {0, 0, 1}, tmax}, primitives.bounds()), 0, hit);
+        return primitives.test(ExactRay({{0.5, -0.25, 0}, tmin, {0, 0, 1}, tmax}), 0, hit);
     };
     EXPECT_TRUE(hits(0.0, 2.0)) << "ends belong to the interval";
     EXPECT_TRUE(hits(2.0, 2.0));
@@ -137,7 +137,7 @@ TEST(Primitives, NeverHitWhatIsInvalid) {
     const Primitives primitives({std::make_shared<const TriangleMesh>(arrays, true, true)});
     EXPECT_EQ(primitives.invalid_count(), 2u);
     EXPECT_EQ(primitives.hittable_count(), 1u);
-    const PreparedRay ray({{0.25, 0.25, 1}, 0.0, {0, 0, -1}, INFINITY}, primitives.bounds());
+    const ExactRay ray({{0.25, 0.25, 1}, 0.0, {0, 0, -1}, INFINITY});
     PrimitiveHit hit;
     EXPECT_FALSE(primitives.test(ray, 0, hit));
     EXPECT_TRUE(primitives.test(ray, 1, hit));

@@ -20,12 +20,10 @@ struct Answer {
 };
 
 Answer ask(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c = corners) {
-    Box bounds;
-    for (const Vec3& p : c) bounds.extend(p);
-    const PreparedRay ray({origin, 0.0, direction, infinity}, bounds);
+    const ExactRay ray({origin, 0.0, direction, infinity});
     TriangleHit hit{};
     if (!test_triangle(ray, c[0], c[1], c[2], hit)) return {};
-    return {true, ray.to_caller(hit.t), hit.u, hit.v};
+    return {true, hit.t, hit.u, hit.v};
 }
 
 TEST(TriangleTest, GivesDistanceAndWeights) {
@@ -94,47 +92,6 @@ TEST(TriangleTest, RotatesWeightsWithTheCorners) {
     const Answer second = ask({0.25, 0.5, 1}, {0, 0, -1}, {corners[1], corners[2], corners[0]});
     EXPECT_EQ(second.u, first.v);
     EXPECT_EQ(second.v, 1.0 - first.u - first.v);
-}
-
-TEST(PreparedRay, ScalesWithoutRounding) {
-    for (const double length : {1.0, 3.0, 1e-300, 1e300, 0x1p-1074}) {
-        const PreparedRay ray({{0, 0, 0}, 0.0, {0.5 * length, -length, 0}, 7.0}, {Vec3(-1), Vec3(1)});
-        EXPECT_GE(std::fabs(ray.direction.y), 1.0);
-        EXPECT_LT(std::fabs(ray.direction.y), 2.0);
-        EXPECT_EQ(ray.major_axis, 1);
-    }
-    const PreparedRay ray({{0, 0, 0}, -3.0, {0, 0, 5.0}, 7.0}, {Vec3(-1), Vec3(1)});
-    EXPECT_EQ(ray.to_caller(ray.tmin), -3.0);
-    EXPECT_EQ(ray.to_caller(ray.tmax), 7.0);
-    EXPECT_EQ(ray.to_caller(infinity), infinity);
-}
-
-TEST(PreparedRay, KnowsWhichRaysCanHit) {
-    const double nan = std::nan("");
-    const Ray good{{0, 0, 0}, 0.0, {0, 0, 1}, infinity};
-    EXPECT_TRUE(PreparedRay::is_traceable(good));
-    EXPECT_FALSE(good.has_nan());
-    const auto with = [&good](auto change) {
-        Ray ray = good;
-        change(ray);
-        return ray;
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_TRUE(with([=](Ray& r) { r.origin[axis] = nan; }).has_nan());
-        EXPECT_TRUE(with([=](Ray& r) { r.direction[axis] = nan; }).has_nan());
-        EXPECT_FALSE(PreparedRay::is_traceable(with([=](Ray& r) { r.origin[axis] = nan; })));
-        EXPECT_FALSE(PreparedRay::is_traceable(with([=](Ray& r) { r.direction[axis] = nan; })));
-        EXPECT_FALSE(PreparedRay::is_traceable(with([=](Ray& r) { r.origin[axis] = infinity; })));
-        EXPECT_FALSE(PreparedRay::is_traceable(with([=](Ray& r) { r.direction[axis] = -infinity; })));
-    }
-    EXPECT_TRUE(with([=](Ray& r) { r.tmin = nan; }).has_nan());
-    EXPECT_TRUE(with([=](Ray& r) { r.tmax = nan; }).has_nan());
-    EXPECT_FALSE(PreparedRay::is_traceable(with([](Ray& r) { r.direction = Vec3(0.0); })));
-    EXPECT_FALSE(PreparedRay::is_traceable(with([](Ray& r) { r.tmin = 2.0, r.tmax = 1.0; })));
-    EXPECT_TRUE(PreparedRay::is_traceable(with([](Ray& r) { r.tmin = 1.0, r.tmax = 1.0; })));
-    // Infinities of both signs are no NaN, though their sum is.
-    EXPECT_FALSE(with([](Ray& r) { r.origin = {infinity, -infinity, 0}; }).has_nan());
-    EXPECT_FALSE(with([](Ray& r) { r.direction = {infinity, -infinity, 0}; }).has_nan());
 }
 
 } // namespace

@@ -126,15 +126,14 @@ public:
     }
 
     void ask(const InputRay& ray, Digest& digest) {
-        const PreparedRay prepared({vector_of(ray.origin), ray.tmin, vector_of(ray.direction), ray.tmax},
-                                   primitives_.bounds());
-        add(prepared, accel_->closest(prepared), digest);
-        digest.add(accel_->any(prepared) ? 1u : 0u);
+        const Ray asked{vector_of(ray.origin), ray.tmin, vector_of(ray.direction), ray.tmax};
+        add(accel_->closest(asked, {}), digest);
+        digest.add(accel_->any(asked, {}) ? 1u : 0u);
         hits_.clear();
-        accel_->all(prepared, hits_);
+        accel_->all(asked, {}, hits_);
         std::sort(hits_.begin(), hits_.end());
         digest.add(static_cast<std::uint32_t>(hits_.size()));
-        for (const PrimitiveHit& hit : hits_) add(prepared, hit, digest);
+        for (const PrimitiveHit& hit : hits_) add(hit, digest);
         hit_count_ += hits_.size();
     }
     // The same rays together, as they are in batches.
@@ -143,14 +142,13 @@ public:
         for (const InputRay& ray : inputs)
             rays.push_back({vector_of(ray.origin), ray.tmin, vector_of(ray.direction), ray.tmax});
         std::vector<PrimitiveHit> hits(rays.size());
-        std::vector<Corners> corners(rays.size());
         const auto found = std::make_unique<bool[]>(rays.size());
-        const UnpreparedRays all{rays.data(), nullptr, rays.size(), primitives_.bounds()};
+        const RayPacket all{rays.data(), nullptr, rays.size()};
         Scratch scratch;
-        accel_->closest_many(all, {hits.data(), corners.data()}, scratch);
+        accel_->closest_many(all, hits.data(), scratch);
         accel_->any_many(all, found.get(), scratch);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (hits[i].is_hit()) add(PreparedRay(rays[i], primitives_.bounds()), hits[i], digest);
+            if (hits[i].is_hit()) add(hits[i], digest);
             digest.add(found[i] ? 1u : 0u);
             hit_count_ += hits[i].is_hit() ? 1 : 0;
         }
@@ -158,11 +156,10 @@ public:
     std::size_t hit_count() const { return hit_count_; }
 
 private:
-    void add(const PreparedRay& ray, const PrimitiveHit& hit, Digest& digest) const {
+    void add(const PrimitiveHit& hit, Digest& digest) const {
         digest.add(hit.primitive);
         if (!hit.is_hit()) return;
         digest.add(hit.t);
-        digest.add(ray.to_caller(hit.t));
         digest.add(hit.u);
         digest.add(hit.v);
         digest.add(unit_normal(primitives_.corners(hit.primitive)));

@@ -51,7 +51,7 @@ void add_views(const oracle::Scene& scene, InputScene& input) {
     for (std::size_t i = 0; i < scene.vertices.size(); i += step) {
         for (const Ray& ray : {Ray{box.center(), 0.0, scene.vertices[i] - box.center()},
                                Ray{scene.vertices[i] - max_component(box.size()) * slope, 0.0, slope}}) {
-            if (PreparedRay::is_traceable(ray)) input.rays.push_back(packed(ray));
+            if (ray.is_traceable()) input.rays.push_back(packed(ray));
         }
     }
 }

@@ -1,6 +1,6 @@
 #include "oracle/compare.h"
 
-#include "accel/linear_scan.h"
+#include "accel/scan/linear_scan.h"
 #include "oracle/judge.h"
 #include "oracle/plain_scan.h"
 
@@ -43,24 +43,26 @@ class Trial {
 public:
     Trial(const Scene& scene, const Judge& judge, const Primitives& primitives, const Accel& accel, const Ray& ray,
           Comparison& result)
-        : scene_(scene),
-          ray_(ray),
-          result_(result),
-          prepared_(ray, primitives.bounds()),
-          line_hits_(judge.line_hits(ray)) {
+        : scene_(scene), ray_(ray), result_(result), prepared_(ray), line_hits_(judge.line_hits(ray)) {
         // As a fraction: the caller's unit may make it too small for a double.
-        bound_ = exact(prepared_.margin) / 8 *
+        const Box& box = primitives.bounds();
+        const double reach =
+            max_component(larger(magnitudes(box.lower - ray.origin), magnitudes(box.upper - ray.origin)));
+        double bound = 0x1p-37 * larger(reach, 0x1p-900);
+        // A t below the normal numbers is rounded to their steps, which are coarse in units of a long direction.
+        bound = larger(bound, 2.0 * prepared_.scale.from_caller(std::numeric_limits<double>::denorm_min()));
+        bound_ = exact(bound) *
                  (exact(prepared_.direction[prepared_.major_axis]) / exact(ray.direction[prepared_.major_axis]));
         if (bound_ < 0) bound_ = -bound_;
         std::vector<PrimitiveHit> found;
-        accel.all(prepared_, found);
+        accel.all(ray, {}, found);
         check_hits(found);
         check_order(found);
-        const PrimitiveHit closest = accel.closest(prepared_);
+        const PrimitiveHit closest = accel.closest(ray, {});
         const auto first = std::min_element(found.begin(), found.end());
         if (first == found.end() ? closest.is_hit() : !same_bits(*first, closest))
             fault("closest is not the first of all: " + describe(closest));
-        if (accel.any(prepared_) == found.empty()) fault("any and all differ");
+        if (accel.any(ray, {}) == found.empty()) fault("any and all differ");
         ++result_.rays;
         result_.tests += primitives.count();
         result_.hits += found.size();
@@ -124,9 +126,7 @@ private:
     }
 
     void check_values(const PrimitiveHit& hit, const ExactHit& expected) {
-        const Fraction unit =
-            exact(prepared_.direction[prepared_.major_axis]) / exact(ray_.direction[prepared_.major_axis]);
-        const Fraction t = exact(hit.t) * unit;
+        const Fraction t = exact(hit.t);
         const double t_error =
             Fraction((t < expected.t ? expected.t - t : t - expected.t) / bound_).convert_to<double>();
         const double uv_error = std::max(distance(exact(hit.u), expected.u), distance(exact(hit.v), expected.v));
@@ -158,7 +158,7 @@ private:
     const Scene& scene_;
     const Ray& ray_;
     Comparison& result_;
-    PreparedRay prepared_;
+    ExactRay prepared_;
     std::vector<ExactHit> line_hits_;
     Fraction bound_;
 };
@@ -230,18 +230,17 @@ Comparison compare_with_linear_scan(Structure structure, const Scene& scene, con
         }
     };
     for (const Ray& ray : rays) {
-        const PreparedRay prepared(ray, primitives.bounds());
-        const PrimitiveHit wanted = expected.closest(prepared);
-        const PrimitiveHit closest = tested.accel->closest(prepared);
+        const PrimitiveHit wanted = expected.closest(ray, {});
+        const PrimitiveHit closest = tested.accel->closest(ray, {});
         if (!same_bits(wanted, closest))
             fault(ray, "closest: " + describe(closest) + " instead of " + describe(wanted));
-        if (tested.accel->any(prepared) != wanted.is_hit())
+        if (tested.accel->any(ray, {}) != wanted.is_hit())
             fault(ray, wanted.is_hit() ? "any: misses" : "any: hits nothing that is there");
 
         std::vector<PrimitiveHit> all_wanted;
         std::vector<PrimitiveHit> all(1); // must be appended to, not replaced
-        expected.all(prepared, all_wanted);
-        tested.accel->all(prepared, all);
+        expected.all(ray, {}, all_wanted);
+        tested.accel->all(ray, {}, all);
         if (all.empty() || all.front().is_hit()) fault(ray, "all: changes what was in the list before");
         all.erase(all.begin());
         std::sort(all.begin(), all.end());

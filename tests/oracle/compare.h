@@ -28,7 +28,7 @@ struct Comparison {
 };
 
 // Which triangles are hit has to agree exactly, except where the exact t lies within the bound of an end of the
-// interval; t has to lie within PreparedRay::margin / 8, u and v within uv_bound, and the order of two hits may differ
+// interval; t has to lie within 2^-37 of the distance between the ray's origin and the farthest corner of the scene, u and v within uv_bound, and the order of two hits may differ
 // only where their exact t differ by less than the bound.
 Comparison compare_with_judge(const Scene& scene, const std::vector<Ray>& rays);
 

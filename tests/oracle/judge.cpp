@@ -1,5 +1,7 @@
 #include "oracle/judge.h"
 
+#include "ray/exact_ray.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,7 +87,7 @@ bool meets_when_nudged(const Scene& scene, const Ray& ray, std::uint32_t towards
     using FractionVec = std::array<Fraction, 3>;
     const auto corner = [&](std::uint32_t t, std::size_t i) { return scene.vertices[scene.triangles[t][i]]; };
     // As the ray is traced: components that count as zero are zero.
-    const Vec3 d = PreparedRay(ray, {}).direction;
+    const Vec3 d = ExactRay(ray).direction;
     FractionVec inside; // the centroid, seen from the origin: the component along the ray changes nothing
     for (int axis = 0; axis < 3; ++axis) {
         inside[static_cast<std::size_t>(axis)] =

@@ -4,8 +4,8 @@
 // and the sign of each edge's determinant is simply computed.
 #pragma once
 
-#include "base/ray.h"
 #include "oracle/scenes.h"
+#include "ray/ray.h"
 
 #include <boost/multiprecision/gmp.hpp>
 

@@ -1,8 +1,8 @@
-// Every primitive in turn, with the one exact test and nothing before it: what all structures are compared with, the library's own
+// Every primitive in turn, with the test for one triangle and nothing before it: what all structures are compared with, the library's own
 // linear scan included.
 #pragma once
 
-#include "accel/visitors.h"
+#include "accel/traversed_accel.h"
 
 namespace raywise::oracle {
 
@@ -12,11 +12,12 @@ public:
 
     std::size_t bytes() const override { return sizeof *this; }
 
-    template <class Visitor>
-    void traverse(const PreparedRay&, Visitor& visitor) const {
+    template <class Collector>
+    void traverse(const ExactRay& ray, Collector& collector) const {
         const std::uint32_t count = primitives().count();
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (visitor.visit(i)) return;
+            PrimitiveHit hit;
+            if (primitives().test(ray, i, hit) && collector.collect(hit)) return;
         }
     }
 };

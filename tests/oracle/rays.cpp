@@ -75,7 +75,7 @@ Vec3 stepped_from(Maker& make, const Vec3& p) {
 
 // Structures are asked no others.
 std::vector<Ray> traceable(std::vector<Ray> rays) {
-    rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& ray) { return !PreparedRay::is_traceable(ray); }),
+    rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& ray) { return !ray.is_traceable(); }),
                rays.end());
     return rays;
 }
@@ -153,6 +153,44 @@ std::vector<Ray> hard_rays(const Scene& scene, int count, unsigned seed) {
         steep.direction[(i + 1) % 3] = std::ldexp(make.number(-1.0, 1.0), -make.below(200));
         steep.direction[(i + 2) % 3] = std::ldexp(make.number(-1.0, 1.0), -make.below(60));
         rays.push_back(steep);
+    }
+    return traceable(std::move(rays));
+}
+
+std::vector<Ray> rays_from_afar(const Scene& scene, double times, int count, unsigned seed) {
+    Maker make(scene, seed);
+    std::vector<Ray> rays;
+    if (!make.has_triangles()) return rays;
+    const double distance = times * make.frame().radius;
+    for (int i = 0; i < count; ++i) {
+        for (const Vec3& target : {make.vertex(), make.on_edge(), make.on_triangle(), make.around()}) {
+            const Vec3 away = distance * make.in_cube();
+            rays.push_back(towards(target + away, target));
+            rays.push_back({target + away, 0.0, -away / distance, infinity});
+            // Straight along an axis the target is met, however far away that is.
+            Ray straight{target, 0.0, Vec3(0.0), infinity};
+            straight.direction[i % 3] = i % 2 == 0 ? 1.0 : -1.0;
+            straight.origin -= distance * straight.direction;
+            rays.push_back(straight);
+            straight.tmax = distance;
+            rays.push_back(straight);
+        }
+    }
+    return traceable(std::move(rays));
+}
+
+std::vector<Ray> rays_from_close_by(const Scene& scene, int count, unsigned seed) {
+    Maker make(scene, seed);
+    std::vector<Ray> rays;
+    if (!make.has_triangles()) return rays;
+    for (int i = 0; i < count; ++i) {
+        const Corners c = make.triangle();
+        const Vec3 edges = larger(magnitudes(c[1] - c[0]), magnitudes(c[2] - c[0]));
+        const Vec3 origin = c[0] + 4.0 * max_component(edges) * make.in_cube();
+        rays.push_back(towards(origin, c[1]));
+        rays.push_back(towards(origin, 0.25 * c[0] + 0.75 * c[2]));
+        rays.push_back(towards(origin, 0.25 * c[0] + 0.25 * c[1] + 0.5 * c[2]));
+        rays.push_back({origin, 0.0, make.in_cube(), infinity});
     }
     return traceable(std::move(rays));
 }

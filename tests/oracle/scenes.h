@@ -46,6 +46,9 @@ std::vector<Scene> hard_scenes();
 // Larger scenes, for comparing structures with each other.
 std::vector<Scene> large_scenes();
 
+// Scenes that are far larger, or farther away, than most of what is in them.
+std::vector<Scene> far_scenes();
+
 // The folder named by RAYWISE_TEST_DATA, or shared/data/meshes beside the repository; empty when there is none.
 std::filesystem::path data_folder();
 // The real meshes found there, at most so large.

@@ -39,6 +39,30 @@ TEST_P(EveryStructure, AgreesOnHardScenes) {
     EXPECT_GT(all.hits, 20000u);
 }
 
+TEST_P(EveryStructure, AgreesOnFarScenes) {
+    Comparison all;
+    for (const Scene& scene : far_scenes()) {
+        all.add(compare(scene, random_rays(scene, 40, 57)));
+        all.add(compare(scene, hard_rays(scene, 6, 58)));
+        all.add(compare(scene, rays_from_close_by(scene, 40, 59)));
+    }
+    expect_agreement(all);
+    EXPECT_GT(all.hits, 20000u);
+}
+
+TEST_P(EveryStructure, AgreesOnRaysFromFarAway) {
+    std::vector<Scene> scenes = far_scenes();
+    for (const Scene& scene : {icosphere(2), terrain(12), soup(200, 60), flat_square(6, 1), single_triangle()})
+        scenes.push_back(scene);
+    Comparison all;
+    for (const Scene& scene : scenes) {
+        for (const double times : {1e3, 1e6, 7.5e10, 1e15, 1e30})
+            all.add(compare(scene, rays_from_afar(scene, times, 1, 61)));
+    }
+    expect_agreement(all);
+    EXPECT_GT(all.hits, 5000u);
+}
+
 TEST_P(EveryStructure, AgreesOnLargeScenes) {
     Comparison all;
     for (const Scene& scene : large_scenes()) {
@@ -110,11 +134,11 @@ TEST_P(EveryStructure, AgreesAtTheEndsOfIntervals) {
         const Primitives primitives = primitives_of(scene);
         std::vector<Ray> limited;
         for (Ray ray : random_rays(scene, 120, 42)) {
-            const PreparedRay prepared(ray, primitives.bounds());
+            const ExactRay exact(ray);
             PrimitiveHit hit;
             for (std::uint32_t i = 0; i < primitives.count(); ++i) {
-                if (!primitives.test(prepared, i, hit)) continue;
-                const double t = prepared.to_caller(hit.t);
+                if (!primitives.test(exact, i, hit)) continue;
+                const double t = hit.t;
                 for (const double end : {t, std::nextafter(t, 0.0), std::nextafter(t, infinity)}) {
                     limited.push_back({ray.origin, 0.0, ray.direction, end});
                     limited.push_back({ray.origin, end, ray.direction, infinity});
@@ -161,8 +185,7 @@ TEST_P(EveryStructure, AgreesWithAnyView) {
                 for (const Vec3& v : scene.vertices) {
                     if (rays.size() < 300 && v != point) rays.push_back({point, 0.0, v - point, infinity});
                 }
-                rays.erase(std::remove_if(rays.begin(), rays.end(),
-                                          [](const Ray& r) { return !PreparedRay::is_traceable(r); }),
+                rays.erase(std::remove_if(rays.begin(), rays.end(), [](const Ray& r) { return !r.is_traceable(); }),
                            rays.end());
                 all.add(compare_with_linear_scan(GetParam(), scene, rays, view));
             }
@@ -207,8 +230,8 @@ TEST_P(EveryStructure, AgreesForSeveralMeshes) {
     const auto in_parts = build(GetParam(), BuildInput{parts, {}, std::nullopt, parallel, progress});
     const auto expected = build(Structure::linear_scan, BuildInput{whole, {}, std::nullopt, parallel, progress});
     for (const Ray& ray : random_rays(together, 300, 50)) {
-        const PrimitiveHit wanted = expected->closest(PreparedRay(ray, whole.bounds()));
-        const PrimitiveHit hit = in_parts->closest(PreparedRay(ray, parts.bounds()));
+        const PrimitiveHit wanted = expected->closest(ray, {});
+        const PrimitiveHit hit = in_parts->closest(ray, {});
         EXPECT_EQ(hit.primitive, wanted.primitive) << describe(ray);
         EXPECT_EQ(hit.t, wanted.t);
         if (hit.is_hit()) {
@@ -231,7 +254,7 @@ TEST_P(EveryStructure, IsTheSameHoweverManyThreadsBuildIt) {
         EXPECT_GT(accel->bytes(), 0u);
         EXPECT_LT(accel->bytes(), 2 * bytes + 100000);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const PrimitiveHit hit = accel->closest(PreparedRay(rays[i], primitives.bounds()));
+            const PrimitiveHit hit = accel->closest(rays[i], {});
             if (threads == 1) wanted.push_back(hit);
             EXPECT_EQ(hit.primitive, wanted[i].primitive);
             EXPECT_EQ(hit.t, wanted[i].t);
@@ -250,8 +273,7 @@ TEST_P(EveryStructure, IsBuiltWithAHostsLoopThatRunsBackwards) {
     const Parallel one(1);
     const auto expected = build(Structure::linear_scan, BuildInput{primitives, {}, std::nullopt, one, progress});
     for (const Ray& ray : random_rays(scene, 200, 53)) {
-        const PreparedRay prepared(ray, primitives.bounds());
-        EXPECT_EQ(accel->closest(prepared).primitive, expected->closest(prepared).primitive);
+        EXPECT_EQ(accel->closest(ray, {}).primitive, expected->closest(ray, {}).primitive);
     }
 }
 
@@ -295,13 +317,13 @@ TEST_P(EveryStructure, AnswersManyThreadsAtOnce) {
     const auto accel = build(GetParam(), BuildInput{primitives, {}, std::nullopt, one, progress});
     const std::vector<Ray> rays = random_rays(scene, 200, 56);
     std::vector<PrimitiveHit> wanted;
-    for (const Ray& ray : rays) wanted.push_back(accel->closest(PreparedRay(ray, primitives.bounds())));
+    for (const Ray& ray : rays) wanted.push_back(accel->closest(ray, {}));
     std::vector<std::thread> threads;
     std::vector<int> differences(4, 0);
     for (std::size_t t = 0; t < differences.size(); ++t) {
         threads.emplace_back([&, t] {
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                const PrimitiveHit hit = accel->closest(PreparedRay(rays[i], primitives.bounds()));
+                const PrimitiveHit hit = accel->closest(rays[i], {});
                 if (hit.primitive != wanted[i].primitive || hit.t != wanted[i].t) ++differences[t];
             }
         });

@@ -1,8 +1,8 @@
 // What every language is asked: meshes, rays, and the triangles that the rays skip.
 #pragma once
 
-#include "base/ray.h"
 #include "oracle/scenes.h"
+#include "ray/ray.h"
 #include "raywise/raywise.h"
 
 #include <functional>

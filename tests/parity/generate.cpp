@@ -77,13 +77,13 @@ std::vector<rw_hit> answer(const rw_scene* scene, const Case& c) {
     const rw_ray_options options = {sizeof options, static_cast<std::uint32_t>(c.skip.size()), c.skip.data()};
     std::vector<rw_hit> hits(1000);
     std::uint64_t needed = 0;
-    check(rw_scene_intersect_all_with(scene, &ray, &options, hits.data(), hits.size(), &needed));
+    check(rw_scene_intersect_all(scene, &ray, &options, hits.data(), hits.size(), &needed));
     hits.resize(needed);
 
     rw_hit closest;
     std::int32_t occluded = 0;
-    check(rw_scene_intersect_with(scene, &ray, &options, &closest));
-    check(rw_scene_occluded_with(scene, &ray, &options, &occluded));
+    check(rw_scene_intersect(scene, &ray, &options, &closest));
+    check(rw_scene_occluded(scene, &ray, &options, &occluded));
     const bool agreed =
         hits.empty() ? closest.primitive == RW_INVALID_ID : std::memcmp(&closest, hits.data(), sizeof closest) == 0;
     if (!agreed || (occluded != 0) == hits.empty()) throw std::runtime_error("closest, any and all hits disagree");
@@ -99,18 +99,20 @@ std::string skip_text(const std::vector<rw_primitive_id>& skip) {
     return text + "]";
 }
 
-std::string hit_text(const rw_hit& hit) {
+std::string hit_text(const rw_scene* scene, const rw_hit& hit) {
+    double normal[3];
+    check(rw_scene_normal(scene, &hit, normal));
     return "{\"t\":" + bits(hit.t) + ",\"u\":" + bits(hit.u) + ",\"v\":" + bits(hit.v) + ",\"normal\":[" +
-           bits(hit.normal[0]) + "," + bits(hit.normal[1]) + "," + bits(hit.normal[2]) +
+           bits(normal[0]) + "," + bits(normal[1]) + "," + bits(normal[2]) +
            "],\"geometry\":" + std::to_string(hit.geometry) + ",\"primitive\":" + std::to_string(hit.primitive) + "}";
 }
 
-std::string case_text(const Scene& mesh, const Case& c, const std::vector<rw_hit>& hits) {
+std::string case_text(const rw_scene* scene, const Scene& mesh, const Case& c, const std::vector<rw_hit>& hits) {
     std::string text = "{\"mesh\":\"" + mesh.name + "\",\"origin\":" + numbers(c.ray.origin) +
                        ",\"direction\":" + numbers(c.ray.direction) + ",\"tmin\":" + number(c.ray.tmin) +
                        ",\"tmax\":" + (std::isinf(c.ray.tmax) ? "\"inf\"" : number(c.ray.tmax)) +
                        ",\"skip\":" + skip_text(c.skip) + ",\"hits\":[";
-    for (std::size_t i = 0; i < hits.size(); ++i) text += (i == 0 ? "" : ",") + hit_text(hits[i]);
+    for (std::size_t i = 0; i < hits.size(); ++i) text += (i == 0 ? "" : ",") + hit_text(scene, hits[i]);
     return text + "]}";
 }
 
@@ -122,7 +124,7 @@ std::string generate() {
         rw_scene* scene = commit(mesh);
         const auto all = [&](const Case& c) { return answer(scene, c); };
         for (const Case& c : raywise::parity::cases(mesh, all))
-            case_list += (case_list.empty() ? "" : ",\n") + case_text(mesh, c, all(c));
+            case_list += (case_list.empty() ? "" : ",\n") + case_text(scene, mesh, c, all(c));
         check(rw_scene_release(scene));
     }
     return "{\"meshes\":[\n" + mesh_list + "\n],\"cases\":[\n" + case_list + "\n]}\n";

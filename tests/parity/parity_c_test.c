@@ -21,13 +21,11 @@ typedef struct library {
     int32_t (*scene_add_triangles)(rw_scene *, const rw_triangles *, uint32_t *);
     int32_t (*scene_set_structure)(rw_scene *, const char *);
     int32_t (*scene_commit)(rw_scene *, const rw_commit_options *);
-    int32_t (*scene_intersect)(const rw_scene *, const rw_ray *, rw_hit *);
-    int32_t (*scene_occluded)(const rw_scene *, const rw_ray *, int32_t *);
-    int32_t (*scene_intersect_all)(const rw_scene *, const rw_ray *, rw_hit *, uint64_t, uint64_t *);
-    int32_t (*scene_intersect_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *);
-    int32_t (*scene_occluded_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, int32_t *);
-    int32_t (*scene_intersect_all_with)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *, uint64_t,
-                                        uint64_t *);
+    int32_t (*scene_intersect)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *);
+    int32_t (*scene_occluded)(const rw_scene *, const rw_ray *, const rw_ray_options *, int32_t *);
+    int32_t (*scene_intersect_all)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *, uint64_t,
+                                   uint64_t *);
+    int32_t (*scene_normal)(const rw_scene *, const rw_hit *, double *);
     const char *(*last_error_message)(void);
 } library;
 
@@ -60,9 +58,7 @@ static void load_library(const char *path) {
     load_name(handle, "rw_scene_intersect", &lib.scene_intersect);
     load_name(handle, "rw_scene_occluded", &lib.scene_occluded);
     load_name(handle, "rw_scene_intersect_all", &lib.scene_intersect_all);
-    load_name(handle, "rw_scene_intersect_with", &lib.scene_intersect_with);
-    load_name(handle, "rw_scene_occluded_with", &lib.scene_occluded_with);
-    load_name(handle, "rw_scene_intersect_all_with", &lib.scene_intersect_all_with);
+    load_name(handle, "rw_scene_normal", &lib.scene_normal);
     load_name(handle, "rw_last_error_message", &lib.last_error_message);
     if (lib.abi_version(&abi) != RW_OK || abi != RW_ABI_VERSION) exit(1);
 }
@@ -200,6 +196,7 @@ typedef struct question {
     rw_primitive_id skip[MOST_HITS];
     rw_ray_options options;
     rw_hit hits[MOST_HITS];
+    double normals[MOST_HITS][3];
     uint64_t hit_count;
 } question;
 
@@ -222,7 +219,7 @@ static void read_skip(question *q) {
     take("]");
 }
 
-static void read_hit(rw_hit *hit) {
+static void read_hit(rw_hit *hit, double *normal) {
     int i;
     memset(hit, 0, sizeof *hit);
     hit->instance = RW_INVALID_ID;
@@ -235,7 +232,7 @@ static void read_hit(rw_hit *hit) {
     take(",\"normal\":[");
     for (i = 0; i < 3; ++i) {
         if (i > 0) take(",");
-        hit->normal[i] = take_bits();
+        normal[i] = take_bits();
     }
     take("],\"geometry\":");
     hit->geometry = (uint32_t)take_number();
@@ -262,7 +259,8 @@ static void read_question(question *q) {
     if (!take_if("]")) {
         do {
             if (q->hit_count == MOST_HITS) fail("fewer hits");
-            read_hit(&q->hits[q->hit_count++]);
+            read_hit(&q->hits[q->hit_count], q->normals[q->hit_count]);
+            ++q->hit_count;
         } while (take_if(","));
         take("]");
     }
@@ -278,6 +276,17 @@ static int is_answer(const question *q, const rw_hit *closest, int32_t occluded,
     return memcmp(closest, q->hit_count > 0 ? &q->hits[0] : &miss, sizeof miss) == 0 &&
            occluded == (q->hit_count > 0) && count == q->hit_count &&
            memcmp(all, q->hits, (size_t)count * sizeof all[0]) == 0;
+}
+
+static int are_normals(const question *q, const rw_scene *scene) {
+    uint64_t i;
+    int right = 1;
+    for (i = 0; i < q->hit_count; ++i) {
+        double normal[3];
+        need(lib.scene_normal(scene, &q->hits[i], normal));
+        right = right && memcmp(normal, q->normals[i], sizeof normal) == 0;
+    }
+    return right;
 }
 
 static int check_case(int number) {
@@ -296,14 +305,14 @@ static int check_case(int number) {
     for (i = 0; i < structure_count; ++i) {
         const rw_scene *scene = meshes[m].scenes[i];
         int right;
-        need(lib.scene_intersect_with(scene, &q.ray, &q.options, &closest));
-        need(lib.scene_occluded_with(scene, &q.ray, &q.options, &occluded));
-        need(lib.scene_intersect_all_with(scene, &q.ray, &q.options, all, MOST_HITS, &count));
-        right = is_answer(&q, &closest, occluded, all, count);
+        need(lib.scene_intersect(scene, &q.ray, &q.options, &closest));
+        need(lib.scene_occluded(scene, &q.ray, &q.options, &occluded));
+        need(lib.scene_intersect_all(scene, &q.ray, &q.options, all, MOST_HITS, &count));
+        right = is_answer(&q, &closest, occluded, all, count) && are_normals(&q, scene);
         if (q.options.skip_count == 0) {
-            need(lib.scene_intersect(scene, &q.ray, &closest));
-            need(lib.scene_occluded(scene, &q.ray, &occluded));
-            need(lib.scene_intersect_all(scene, &q.ray, all, MOST_HITS, &count));
+            need(lib.scene_intersect(scene, &q.ray, NULL, &closest));
+            need(lib.scene_occluded(scene, &q.ray, NULL, &occluded));
+            need(lib.scene_intersect_all(scene, &q.ray, NULL, all, MOST_HITS, &count));
             right = right && is_answer(&q, &closest, occluded, all, count);
         }
         if (right) continue;

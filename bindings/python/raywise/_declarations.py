@@ -152,6 +152,15 @@ class rw_ray(ctypes.Structure):
     ]
 
 
+class rw_ray_f32(ctypes.Structure):
+    _fields_ = [
+        ("origin", ctypes.c_float * 3),
+        ("tmin", ctypes.c_float),
+        ("direction", ctypes.c_float * 3),
+        ("tmax", ctypes.c_float),
+    ]
+
+
 class rw_primitive_id(ctypes.Structure):
     _fields_ = [
         ("instance", ctypes.c_uint32),
@@ -173,11 +182,21 @@ class rw_hit(ctypes.Structure):
         ("t", ctypes.c_double),
         ("u", ctypes.c_double),
         ("v", ctypes.c_double),
-        ("normal", ctypes.c_double * 3),
         ("instance", ctypes.c_uint32),
         ("geometry", ctypes.c_uint32),
         ("primitive", ctypes.c_uint32),
         ("reserved", ctypes.c_uint32),
+    ]
+
+
+class rw_hit_f32(ctypes.Structure):
+    _fields_ = [
+        ("t", ctypes.c_float),
+        ("u", ctypes.c_float),
+        ("v", ctypes.c_float),
+        ("instance", ctypes.c_uint32),
+        ("geometry", ctypes.c_uint32),
+        ("primitive", ctypes.c_uint32),
     ]
 
 
@@ -209,6 +228,9 @@ class rw_hits(ctypes.Structure):
     ]
 
 
+rw_progress = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
+
+
 class rw_query_options(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
@@ -216,6 +238,9 @@ class rw_query_options(ctypes.Structure):
         ("parallel_for", rw_parallel_for),
         ("parallel_user", ctypes.c_void_p),
         ("invalid_rays", ctypes.c_void_p),
+        ("progress", rw_progress),
+        ("progress_user", ctypes.c_void_p),
+        ("cancel", ctypes.c_void_p),
     ]
 
 
@@ -229,9 +254,6 @@ class rw_expected_rays(ctypes.Structure):
         ("count", ctypes.c_uint64),
         ("sample", ctypes.POINTER(rw_rays)),
     ]
-
-
-rw_progress = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
 
 
 class rw_commit_options(ctypes.Structure):
@@ -296,9 +318,6 @@ class rw_candidate(ctypes.Structure):
         ("actual_build_ns", ctypes.c_double),
         ("actual_ray_ns", ctypes.c_double),
     ]
-
-
-rw_view = ctypes.c_void_p
 
 
 class rw_view_options(ctypes.Structure):
@@ -375,47 +394,66 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "rw_scene_bounds": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]),
     "rw_scene_get_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_scene_statistics)]),
     "rw_scene_get_grid_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_grid_statistics)]),
-    "rw_scene_intersect": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_ray), ctypes.POINTER(rw_hit)]),
-    "rw_scene_occluded": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_ray), ctypes.c_void_p]),
+    "rw_scene_intersect": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit),
+        ],
+    ),
+    "rw_scene_occluded": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.c_void_p,
+        ],
+    ),
     "rw_scene_intersect_all": (
         ctypes.c_int32,
         [
             ctypes.c_void_p,
             ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_hit),
-            ctypes.c_uint64,
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_scene_intersect_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_ray_options),
-            ctypes.POINTER(rw_hit),
-        ],
-    ),
-    "rw_scene_occluded_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_ray_options),
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_scene_intersect_all_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
             ctypes.POINTER(rw_ray_options),
             ctypes.POINTER(rw_hit),
             ctypes.c_uint64,
             ctypes.c_void_p,
         ],
     ),
+    "rw_scene_intersect_f32": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray_f32),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit_f32),
+        ],
+    ),
+    "rw_scene_occluded_f32": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray_f32),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.c_void_p,
+        ],
+    ),
+    "rw_scene_intersect_all_f32": (
+        ctypes.c_int32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(rw_ray_f32),
+            ctypes.POINTER(rw_ray_options),
+            ctypes.POINTER(rw_hit_f32),
+            ctypes.c_uint64,
+            ctypes.c_void_p,
+        ],
+    ),
+    "rw_scene_normal": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_hit), ctypes.c_void_p]),
+    "rw_scene_normal_f32": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_hit_f32), ctypes.c_void_p]),
     "rw_scene_intersect_batch": (
         ctypes.c_int32,
         [
@@ -458,97 +496,12 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
             ctypes.c_void_p,
         ],
     ),
-    "rw_view_create": (
+    "rw_scene_view": (
         ctypes.c_int32,
         [
             ctypes.c_void_p,
             ctypes.POINTER(rw_view_options),
             ctypes.POINTER(rw_commit_options),
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_view_retain": (ctypes.c_int32, [ctypes.c_void_p]),
-    "rw_view_release": (ctypes.c_int32, [ctypes.c_void_p]),
-    "rw_view_intersect": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_ray), ctypes.POINTER(rw_hit)]),
-    "rw_view_occluded": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_ray), ctypes.c_void_p]),
-    "rw_view_intersect_all": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_hit),
-            ctypes.c_uint64,
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_view_intersect_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_ray_options),
-            ctypes.POINTER(rw_hit),
-        ],
-    ),
-    "rw_view_occluded_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_ray_options),
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_view_intersect_all_with": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_ray),
-            ctypes.POINTER(rw_ray_options),
-            ctypes.POINTER(rw_hit),
-            ctypes.c_uint64,
-            ctypes.c_void_p,
-        ],
-    ),
-    "rw_view_intersect_batch": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_rays),
-            ctypes.POINTER(rw_hits),
-            ctypes.POINTER(rw_query_options),
-        ],
-    ),
-    "rw_view_occluded_batch": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_rays),
-            ctypes.POINTER(rw_output),
-            ctypes.POINTER(rw_query_options),
-        ],
-    ),
-    "rw_view_intersect_all_batch": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_rays),
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_hits),
-            ctypes.c_uint64,
-            ctypes.c_void_p,
-            ctypes.POINTER(rw_query_options),
-        ],
-    ),
-    "rw_view_candidate_count": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p]),
-    "rw_view_get_candidate": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_uint32, ctypes.POINTER(rw_candidate)]),
-    "rw_view_explain": (
-        ctypes.c_int32,
-        [
-            ctypes.c_void_p,
-            ctypes.c_int32,
-            ctypes.c_void_p,
-            ctypes.c_uint64,
             ctypes.c_void_p,
         ],
     ),
@@ -638,6 +591,16 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "tmax": 56,
         },
     ),
+    "rw_ray_f32": (
+        32,
+        4,
+        {
+            "origin": 0,
+            "tmin": 12,
+            "direction": 16,
+            "tmax": 28,
+        },
+    ),
     "rw_primitive_id": (
         12,
         4,
@@ -657,17 +620,28 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_hit": (
-        64,
+        40,
         8,
         {
             "t": 0,
             "u": 8,
             "v": 16,
-            "normal": 24,
-            "instance": 48,
-            "geometry": 52,
-            "primitive": 56,
-            "reserved": 60,
+            "instance": 24,
+            "geometry": 28,
+            "primitive": 32,
+            "reserved": 36,
+        },
+    ),
+    "rw_hit_f32": (
+        24,
+        4,
+        {
+            "t": 0,
+            "u": 4,
+            "v": 8,
+            "instance": 12,
+            "geometry": 16,
+            "primitive": 20,
         },
     ),
     "rw_rays": (
@@ -701,7 +675,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_query_options": (
-        32,
+        56,
         8,
         {
             "struct_size": 0,
@@ -709,6 +683,9 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "parallel_for": 8,
             "parallel_user": 16,
             "invalid_rays": 24,
+            "progress": 32,
+            "progress_user": 40,
+            "cancel": 48,
         },
     ),
     "rw_expected_rays": (

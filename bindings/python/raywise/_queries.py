@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _declarations as c
 from ._arrays import Array, output_array
 from ._errors import Capacity, check
-from ._explanation import Candidate, Explanation, facts
+from ._explanation import Candidate, Explanation, GridStatistics, SceneStatistics, facts
 from ._handle import Handle, Reference
 from ._hits import (
     EVERYTHING,
@@ -29,6 +29,7 @@ from ._hits import (
     rows_of,
     wanted,
 )
+from ._interrupt import Interrupt
 from ._library import lib
 from ._rays import Rays, as_rays, describe
 from ._skip import SkipLike
@@ -38,15 +39,42 @@ from ._words import Count, sized, unsigned
 # The first guess of intersect_all's capacity, in hits per ray; a second pass is needed when it is too low.
 GUESSED_HITS_PER_RAY = 4
 
-# rw_hit for NumPy, with u and v, which are neighbours, as one.
-HIT = np.dtype(
-    {
-        "names": list(FIELDS),
-        "formats": [("f8" if kind == "float" else "u4", tail) for kind, tail in FIELDS.values()],
-        "offsets": [getattr(c.rw_hit, "u" if name == "uv" else name).offset for name in FIELDS],
-        "itemsize": ctypes.sizeof(c.rw_hit),
-    }
-)
+# What rw_hit has, for NumPy, with u and v, which are neighbours, as one.
+HIT_FIELDS = tuple(name for name in FIELDS if name != "normal")
+
+
+def record_of(struct: Any, number: str) -> "np.dtype[np.void]":
+    return np.dtype(
+        {
+            "names": list(HIT_FIELDS),
+            "formats": [(number if FIELDS[name][0] == "float" else "u4", FIELDS[name][1]) for name in HIT_FIELDS],
+            "offsets": [getattr(struct, "u" if name == "uv" else name).offset for name in HIT_FIELDS],
+            "itemsize": ctypes.sizeof(struct),
+        }
+    )
+
+
+@dataclass(frozen=True)
+class Precision:
+    """The structs and functions for one ray: in float32 where the ray and the answer are, which is the same rounded."""
+
+    suffix: str
+    ray: Any
+    hit: Any
+    record: "np.dtype[np.void]"
+    number: "np.dtype[np.floating]"
+
+    def function(self, name: str) -> Callable[..., int]:
+        function: Callable[..., int] = getattr(lib, f"rw_scene_{name}{self.suffix}")
+        return function
+
+
+FLOAT64 = Precision("", c.rw_ray, c.rw_hit, record_of(c.rw_hit, "f8"), np.dtype(np.float64))
+FLOAT32 = Precision("_f32", c.rw_ray_f32, c.rw_hit_f32, record_of(c.rw_hit_f32, "f4"), np.dtype(np.float32))
+
+
+def precision_of(rays: Rays, dtype: "np.dtype[np.floating]") -> Precision:
+    return FLOAT32 if rays.is_float32 and dtype == np.float32 else FLOAT64
 
 
 @dataclass(frozen=True)
@@ -56,6 +84,7 @@ class Batch:
     rays: Rays
     rows: Dict[str, Array]
     options: c.rw_query_options
+    interrupt: Interrupt
     invalid_rays: "ctypes.c_uint64"
 
     def structs(self) -> c.rw_rays:
@@ -67,7 +96,7 @@ def batch_of(rays: Rays, threads: Count) -> Batch:
     options = sized(c.rw_query_options)
     options.threads = unsigned(threads, "threads", 32)
     options.invalid_rays = ctypes.addressof(invalid_rays)
-    return Batch(rays, rays.rows(), options, invalid_rays)
+    return Batch(rays, rays.rows(), options, Interrupt(options), invalid_rays)
 
 
 def answer_closest(
@@ -85,7 +114,7 @@ def answer_closest(
     else:
         outputs = caller_outputs(out, rays.shape, rays.inputs)
     with rays.in_callers_terms():
-        check(call(batch.structs(), outputs.describe(), batch.options))
+        batch.interrupt.finish(call(batch.structs(), outputs.describe(), batch.options))
     return Hits(outputs.arrays, batch.invalid_rays.value)
 
 
@@ -104,8 +133,17 @@ def answer_occluded(
         require_apart({"out": out}, rays.inputs)
         flags = out
     with rays.in_callers_terms():
-        check(call(batch.structs(), output_array(rows_of(flags, rays.shape, "out")), batch.options))
+        batch.interrupt.finish(
+            call(batch.structs(), output_array(rows_of(flags, rays.shape, "out")), batch.options)
+        )
     return flags
+
+
+class Bounds(NamedTuple):
+    """A box: shape (3,) float64 each. An empty one has lower = inf and upper = -inf."""
+
+    lower: npt.NDArray[np.float64]
+    upper: npt.NDArray[np.float64]
 
 
 class Queries(Handle):
@@ -120,24 +158,17 @@ class Queries(Handle):
     miss.
     """
 
-    _prefix: str
-
-    def _function(self, name: str) -> Callable[..., int]:
-        function: Callable[..., int] = getattr(lib, self._prefix + name)
-        return function
-
     def _committed(self) -> Reference:
         """The reference of something that can be asked."""
         return self._use()
 
-    def _ask_one(self, name: str, reference: Reference, rays: Rays, *results: Any) -> None:
-        """Asks about the one ray of shape (), by the function with options when it skips something."""
+    def _ask_one(
+        self, name: str, precision: Precision, reference: Reference, rays: Rays, *results: Any
+    ) -> None:
+        """Asks about the one ray of shape ()."""
+        options = rays.skip.options() if rays.skip is not None else None
         with rays.in_callers_terms():
-            if rays.skip is None:
-                check(self._function(name)(reference.address, rays.single(), *results))
-            else:
-                options = rays.skip.options()
-                check(self._function(f"{name}_with")(reference.address, rays.single(), options, *results))
+            check(precision.function(name)(reference.address, rays.single(precision.ray), options, *results))
 
     # --- questions -------------------------------------------------------------------------------------------------
 
@@ -178,20 +209,20 @@ class Queries(Handle):
 
         Returns Hits in the rays' leading shape, on arrays of its own (or on `out`); NumPy scalars for a single ray.
         Raises ValueError or TypeError naming the argument, IndexOutOfRange naming the entry of `skip`, NotCommitted,
-        ClosedError, MemoryError. Threads: any.
+        ClosedError, MemoryError. Threads: any. In the main thread signal handlers run meanwhile, at most some ten
+        milliseconds late: Ctrl-C raises KeyboardInterrupt, and what was written to `out` by then is right.
 
-        C: rw_scene_intersect, rw_scene_intersect_with (for a ray with skip) and rw_scene_intersect_batch; for a view
-        rw_view_intersect, rw_view_intersect_with and rw_view_intersect_batch.
+        C: rw_scene_intersect_batch; for a single ray rw_scene_intersect and rw_scene_normal, in float32
+        rw_scene_intersect_f32 and rw_scene_normal_f32.
         """
         reference = self._committed()
         rays = as_rays(origins, directions, tmin, tmax, skip)
         unsigned(threads, "threads", 32)
         if rays.shape == () and out is None:
             return self._intersect_one(reference, rays, wanted(want), float_type(dtype, rays.dtype))
-        function = self._function("intersect_batch")
         return answer_closest(
             rays,
-            lambda c_rays, c_hits, options: function(reference.address, c_rays, c_hits, options),
+            lambda c_rays, c_hits, options: lib.rw_scene_intersect_batch(reference.address, c_rays, c_hits, options),
             want,
             out,
             dtype,
@@ -201,9 +232,36 @@ class Queries(Handle):
     def _intersect_one(
         self, reference: Reference, rays: Rays, names: List[str], dtype: "np.dtype[np.floating]"
     ) -> Hits:
-        hit = c.rw_hit()
-        self._ask_one("intersect", reference, rays, hit)
-        return Hits({name: values[0] for name, values in columns(hit, 1, names, dtype).items()}, count_nan(rays))
+        precision = precision_of(rays, dtype)
+        hits = (precision.hit * 1)()
+        self._ask_one("intersect", precision, reference, rays, hits)
+        found = self._columns(reference, precision, hits, 1, names, dtype)
+        return Hits({name: values[0] for name, values in found.items()}, count_nan(rays))
+
+    def _columns(
+        self,
+        reference: Reference,
+        precision: Precision,
+        hits: Any,
+        count: int,
+        names: Iterable[str],
+        dtype: "np.dtype[np.floating]",
+    ) -> Dict[str, Array]:
+        """The first `count` hits of a ctypes array as arrays of their own, one for each name."""
+        records = np.frombuffer(hits, precision.record, count) if count else np.empty(0, precision.record)
+        found = {}
+        with np.errstate(over="ignore", under="ignore"):
+            for name in names:
+                values = self._normals(reference, precision, hits, count) if name == "normal" else records[name]
+                found[name] = values.astype(dtype if FIELDS[name][0] == "float" else np.uint32)
+        return found
+
+    def _normals(self, reference: Reference, precision: Precision, hits: Any, count: int) -> Array:
+        normals = np.zeros((count, 3), precision.number)
+        for i in range(count):
+            if hits[i].primitive != c.RW_INVALID_ID:
+                check(precision.function("normal")(reference.address, hits[i], normals[i].ctypes.data))
+        return normals
 
     def occluded(
         self,
@@ -224,20 +282,19 @@ class Queries(Handle):
         Returns a bool array in the rays' leading shape (or `out`); a NumPy bool for a single ray.
         Raises as intersect does. Threads: any.
 
-        C: rw_scene_occluded, rw_scene_occluded_with (for a ray with skip) and rw_scene_occluded_batch; for a view
-        rw_view_occluded, rw_view_occluded_with and rw_view_occluded_batch.
+        C: rw_scene_occluded_batch; for a single ray rw_scene_occluded, in float32 rw_scene_occluded_f32.
         """
         reference = self._committed()
         rays = as_rays(origins, directions, tmin, tmax, skip)
         unsigned(threads, "threads", 32)
         if rays.shape == () and out is None:
             answer = ctypes.c_int32()
-            self._ask_one("occluded", reference, rays, ctypes.byref(answer))
+            precision = FLOAT32 if rays.is_float32 else FLOAT64
+            self._ask_one("occluded", precision, reference, rays, ctypes.byref(answer))
             return np.bool_(answer.value)  # type: ignore[return-value]
-        function = self._function("occluded_batch")
         return answer_occluded(
             rays,
-            lambda c_rays, c_output, options: function(reference.address, c_rays, c_output, options),
+            lambda c_rays, c_output, options: lib.rw_scene_occluded_batch(reference.address, c_rays, c_output, options),
             out,
             threads,
         )
@@ -264,8 +321,7 @@ class Queries(Handle):
         Returns AllHits on arrays of its own; for a single ray offsets is [0, number of hits].
         Raises as intersect does. Threads: any.
 
-        C: rw_scene_intersect_all, rw_scene_intersect_all_with (for a ray with skip) and rw_scene_intersect_all_batch;
-        for a view rw_view_intersect_all, rw_view_intersect_all_with and rw_view_intersect_all_batch.
+        C: rw_scene_intersect_all_batch; for a single ray rw_scene_intersect_all, in float32 rw_scene_intersect_all_f32.
         """
         reference = self._committed()
         rays = as_rays(origins, directions, tmin, tmax, skip)
@@ -280,7 +336,7 @@ class Queries(Handle):
         capacity = GUESSED_HITS_PER_RAY * rays.count
         while True:
             outputs = new_outputs(names, (capacity,), float_dtype)
-            status = self._function("intersect_all_batch")(
+            status = lib.rw_scene_intersect_all_batch(
                 reference.address,
                 batch.structs(),
                 offsets.ctypes.data,
@@ -293,23 +349,63 @@ class Queries(Handle):
                 break
             capacity = needed.value
         with rays.in_callers_terms():
-            check(status)
+            batch.interrupt.finish(status)
         return AllHits(trimmed(outputs, needed.value), batch.invalid_rays.value, offsets.view(np.int64))
 
     def _intersect_all_of_one(
         self, reference: Reference, rays: Rays, names: List[str], dtype: "np.dtype[np.floating]"
     ) -> AllHits:
+        precision = precision_of(rays, dtype)
         needed = ctypes.c_uint64()
         capacity = 16
         while True:
-            hits = (c.rw_hit * capacity)()
+            hits = (precision.hit * capacity)()
             try:
-                self._ask_one("intersect_all", reference, rays, hits, capacity, ctypes.byref(needed))
+                self._ask_one("intersect_all", precision, reference, rays, hits, capacity, ctypes.byref(needed))
                 break
             except Capacity:
                 capacity = needed.value
-        found = columns(hits, needed.value, names, dtype)
+        found = self._columns(reference, precision, hits, needed.value, names, dtype)
         return AllHits(found, count_nan(rays), np.array([0, needed.value], np.int64))
+
+    # --- facts -----------------------------------------------------------------------------------------------------
+
+    @property
+    def bounds(self) -> Bounds:
+        """The box around all triangles that can be hit. Raises NotCommitted, ClosedError. C: rw_scene_bounds."""
+        reference = self._committed()
+        box = Bounds(np.empty(3), np.empty(3))
+        check(lib.rw_scene_bounds(reference.address, box.lower.ctypes.data, box.upper.ctypes.data))
+        return box
+
+    @property
+    def statistics(self) -> SceneStatistics:
+        """What is in the scene and what it has cost so far. Raises NotCommitted, ClosedError.
+
+        C: rw_scene_get_statistics.
+        """
+        reference = self._committed()
+        struct = sized(c.rw_scene_statistics)
+        check(lib.rw_scene_get_statistics(reference.address, struct))
+        return facts(SceneStatistics, struct)
+
+    @property
+    def grid_statistics(self) -> GridStatistics:
+        """The statistics of the grid in use.
+
+        Raises WrongStructure when the structure is not uniform_grid, NotCommitted, ClosedError.
+
+        C: rw_scene_get_grid_statistics.
+        """
+        reference = self._committed()
+        struct = sized(c.rw_grid_statistics)
+        check(lib.rw_scene_get_grid_statistics(reference.address, struct))
+        return facts(GridStatistics, struct)
+
+    @property
+    def structure(self) -> str:
+        """The name of the structure in use. Raises NotCommitted, ClosedError. C: rw_scene_get_statistics."""
+        return self.statistics.structure
 
     # --- why this structure ----------------------------------------------------------------------------------------
 
@@ -320,10 +416,10 @@ class Queries(Handle):
         it.
         Raises NotCommitted, ClosedError. Threads: any.
 
-        C: rw_scene_explain; for a view rw_view_explain.
+        C: rw_scene_explain.
         """
         reference = self._committed()
-        function = self._function("explain")
+        function = lib.rw_scene_explain
         text = library_text(function, reference.address, c.RW_FORMAT_TEXT)
         return Explanation(text, library_json(function, reference.address))
 
@@ -333,25 +429,17 @@ class Queries(Handle):
 
         Raises NotCommitted, ClosedError. Threads: any.
 
-        C: rw_scene_candidate_count and rw_scene_get_candidate; for a view rw_view_candidate_count and
-        rw_view_get_candidate.
+        C: rw_scene_candidate_count and rw_scene_get_candidate.
         """
         reference = self._committed()
         count = ctypes.c_uint32()
-        check(self._function("candidate_count")(reference.address, ctypes.byref(count)))
+        check(lib.rw_scene_candidate_count(reference.address, ctypes.byref(count)))
         found = []
         for index in range(count.value):
             candidate = sized(c.rw_candidate)
-            check(self._function("get_candidate")(reference.address, index, candidate))
+            check(lib.rw_scene_get_candidate(reference.address, index, candidate))
             found.append(facts(Candidate, candidate))
         return tuple(found)
-
-
-def columns(hits: Any, count: int, names: Iterable[str], dtype: "np.dtype[np.floating]") -> Dict[str, Array]:
-    """The first `count` rw_hit of a ctypes object as arrays of their own, one for each name."""
-    records = np.frombuffer(hits, HIT, count) if count else np.empty(0, HIT)
-    with np.errstate(over="ignore", under="ignore"):
-        return {name: records[name].astype(dtype if FIELDS[name][0] == "float" else np.uint32) for name in names}
 
 
 def count_nan(rays: Rays) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Dict, Iterator, List, Optional, Tuple
+from typing import Dict, Iterator, List, Optional, Tuple, Type, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,9 @@ from ._arrays import Array, Shape, as_floats, expressible, input_array
 from ._errors import IndexOutOfRange
 from ._skip import Skip, SkipLike, as_skip
 from ._words import sized
+
+
+Ray = TypeVar("Ray", c.rw_ray, c.rw_ray_f32)
 
 
 @dataclass(frozen=True)
@@ -52,9 +55,14 @@ class Rays:
             rows[name] = expressible(whole if len(self.shape) == 1 else whole.reshape((self.count,) + tail))
         return rows
 
-    def single(self) -> c.rw_ray:
+    @property
+    def is_float32(self) -> bool:
+        """Whether all numbers are float32."""
+        return all(part.dtype == np.float32 for part in self.parts.values())
+
+    def single(self, struct: "Type[Ray]") -> "Ray":
         """The one ray of shape ()."""
-        ray = c.rw_ray()
+        ray = struct()
         ray.origin[:] = self.parts["origins"].tolist()
         ray.direction[:] = self.parts["directions"].tolist()
         ray.tmin = float(self.parts["tmin"]) if "tmin" in self.parts else 0.0

@@ -13,24 +13,16 @@ import numpy.typing as npt
 from . import _declarations as c
 from ._arrays import Array
 from ._errors import IndexOutOfRange, NotCommitted, check
-from ._explanation import GridStatistics, SceneStatistics, facts
 from ._handle import Reference
 from ._library import lib
 from ._mesh import Mesh, Triangles, moved_triangles_of, triangles_of
 from ._profile import Profile
 from ._progress import Progress, ProgressCallback
-from ._queries import Queries
+from ._queries import Bounds, Queries
 from ._rays import sample_of
 from ._text import c_text
 from ._view import View
 from ._words import EFFORTS, RAY_KINDS, RULES, Count, constant, ray_count, seconds, sized, unsigned
-
-
-class Bounds(NamedTuple):
-    """A box: shape (3,) float64 each. An empty one has lower = inf and upper = -inf."""
-
-    lower: npt.NDArray[np.float64]
-    upper: npt.NDArray[np.float64]
 
 
 class _Added(NamedTuple):
@@ -53,8 +45,6 @@ class Scene(Queries):
     Once committed a scene never changes, and any number of threads may ask it. Filling and committing are for one
     thread at a time; a second one gets SceneBusy.
     """
-
-    _prefix = "rw_scene_"
 
     def __init__(
         self,
@@ -330,43 +320,6 @@ class Scene(Queries):
         """Whether the scene can be asked (and no longer be changed)."""
         return self._is_committed
 
-    @property
-    def bounds(self) -> Bounds:
-        """The box around all triangles that can be hit. Raises NotCommitted, ClosedError. C: rw_scene_bounds."""
-        reference = self._committed()
-        box = Bounds(np.empty(3), np.empty(3))
-        check(lib.rw_scene_bounds(reference.address, box.lower.ctypes.data, box.upper.ctypes.data))
-        return box
-
-    @property
-    def statistics(self) -> SceneStatistics:
-        """What is in the scene and what it has cost so far. Raises NotCommitted, ClosedError.
-
-        C: rw_scene_get_statistics.
-        """
-        reference = self._committed()
-        struct = sized(c.rw_scene_statistics)
-        check(lib.rw_scene_get_statistics(reference.address, struct))
-        return facts(SceneStatistics, struct)
-
-    @property
-    def grid_statistics(self) -> GridStatistics:
-        """The statistics of the grid in use.
-
-        Raises WrongStructure when the structure is not uniform_grid, NotCommitted, ClosedError.
-
-        C: rw_scene_get_grid_statistics.
-        """
-        reference = self._committed()
-        struct = sized(c.rw_grid_statistics)
-        check(lib.rw_scene_get_grid_statistics(reference.address, struct))
-        return facts(GridStatistics, struct)
-
-    @property
-    def structure(self) -> str:
-        """The name of the structure in use. Raises NotCommitted, ClosedError. C: rw_scene_get_statistics."""
-        return self.statistics.structure
-
     # --- views -----------------------------------------------------------------------------------------------------
 
     def view(
@@ -383,7 +336,7 @@ class Scene(Queries):
     ) -> View:
         """A view of this scene, for rays that share an origin or a direction: View(self, ...), which says the rest.
 
-        C: rw_view_create.
+        C: rw_scene_view.
         """
         return View(
             self,

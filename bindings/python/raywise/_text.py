@@ -36,7 +36,7 @@ def without_zero(data: bytes, argument: str) -> bytes:
 
 
 def library_text(function: Callable[..., int], address: int, format_: int) -> str:
-    """The whole text of rw_profile_text, rw_scene_explain or rw_view_explain, which may grow between two calls."""
+    """The whole text of rw_profile_text or rw_scene_explain, which may grow between two calls."""
     needed = ctypes.c_uint64()
     check(function(address, format_, None, 0, ctypes.byref(needed)))
     while True:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, List, Optional
+from typing import List, Optional
 
 import numpy.typing as npt
 
@@ -16,9 +16,6 @@ from ._queries import Queries
 from ._text import c_text
 from ._words import RAY_KINDS, Count, constant, ray_count, seconds, sized
 
-if TYPE_CHECKING:
-    from ._scene import Scene
-
 VIEW_KINDS = {kind: RAY_KINDS[kind] for kind in ("camera", "shadow")}
 
 
@@ -29,11 +26,9 @@ class View(Queries):
     by the scene. Either way with the same bits. A view keeps what it needs of its scene, which may be closed before it.
     """
 
-    _prefix = "rw_view_"
-
     def __init__(
         self,
-        scene: "Scene",
+        scene: Queries,
         *,
         origin: Optional[npt.ArrayLike] = None,
         direction: Optional[npt.ArrayLike] = None,
@@ -46,6 +41,7 @@ class View(Queries):
     ) -> None:
         """Makes a view of a committed scene, and builds a structure for it when that pays.
 
+        scene: a Scene; or a View, for another one of its scene.
         origin: shape (3,): the point that rays start at, or aim at. None: the view is along `direction`.
         direction: shape (3,), any length but zero. With an origin: where the view looks; None: all around.
         half_angle: with both: radians from the direction to the farthest ray, below pi/2; None: pi/4.
@@ -56,7 +52,7 @@ class View(Queries):
         Raises NotCommitted, ClosedError, RayCount, UnknownStructure, NotFinite (origin or direction), MemoryLimit,
         Cancelled, ValueError, TypeError, MemoryError, and what `progress` raises. Threads: any.
 
-        C: rw_view_create; close() is rw_view_release.
+        C: rw_scene_view; close() is rw_scene_release.
         """
         options = sized(c.rw_view_options)
         options.kind = c.RW_VIEW_POINT if origin is not None else c.RW_VIEW_DIRECTION
@@ -74,9 +70,9 @@ class View(Queries):
         seen = scene._committed()
         build = Progress(threads, progress)
         address = ctypes.c_void_p()
-        status = lib.rw_view_create(seen.address, options, build.options, ctypes.byref(address))
+        status = lib.rw_scene_view(seen.address, options, build.options, ctypes.byref(address))
         if address.value is not None:
-            reference = Reference(address.value, lib.rw_view_release)
+            reference = Reference(address.value, lib.rw_scene_release)
             reference.kept.append(seen)  # arrays that the scene shares have to outlive the view as well
             super().__init__(reference)
         build.finish(status)

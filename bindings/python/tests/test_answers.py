@@ -7,6 +7,7 @@ from typing import Any, Tuple
 
 import numpy as np
 import pytest
+from conftest import Recorder
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -306,3 +307,22 @@ def test_structures_agree_on_hard_little_scenes(vertices: Any, corners: Any, dty
             assert bits(single.t) == bits(closest.t[i]) and single.primitive == closest.primitive[i]
     first = [hits.primitive[0] if len(hits.t) else raywise.INVALID_ID for hits in (every[i] for i in range(6))]
     assert first == closest.primitive.tolist()
+
+
+def test_one_float32_ray_is_asked_in_float32(recorder: Recorder) -> None:
+    scene = raywise.Scene(*sphere())
+    origins, directions = (part.astype(np.float32) for part in rays(6, 100))
+    batch = scene.intersect(origins, directions)
+    for i in range(100):
+        hit = scene.intersect(origins[i], directions[i])
+        same_bits(hit, raywise.Hits({name: array[i] for name, array in batch.arrays.items()}, 0))
+        assert recorder.calls[-1][0] in ("rw_scene_intersect_f32", "rw_scene_normal_f32")
+    scene.occluded(origins[0], directions[0])
+    assert recorder.calls[-1][0] == "rw_scene_occluded_f32"
+    scene.intersect_all(origins[0], directions[0], want=["t"])
+    assert recorder.calls[-1][0] == "rw_scene_intersect_all_f32"
+    # What has more digits, or is to have, is asked in float64.
+    scene.intersect(origins[0], directions[0], tmax=np.float64(0.1), want=["t"])
+    assert recorder.calls[-1][0] == "rw_scene_intersect"
+    scene.intersect(origins[0], directions[0], want=["t"], dtype=np.float64)
+    assert recorder.calls[-1][0] == "rw_scene_intersect"

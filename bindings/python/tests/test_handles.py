@@ -124,18 +124,19 @@ def test_each_reference_is_given_back_once(
     make: Callable[[Any], Any], tmp_path: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     released = []
-    for kind in ("scene", "view", "mesh", "profile"):
+    for kind in ("scene", "mesh", "profile"):
         function = getattr(lib, f"rw_{kind}_release")
         monkeypatch.setattr(
             lib, f"rw_{kind}_release", lambda a, f=function, k=kind: (released.append(k), f(a))[1], raising=False
         )
     handle = make(tmp_path)
     kind = type(handle).__name__.lower()
+    kinds = ["scene", "scene"] if kind == "view" else [kind]  # a view is a scene, and holds the one that it is of
     handle.close()
     handle.close()
     del handle
     gc.collect()
-    assert released.count(kind) == 1
+    assert [each for each in released if each in kinds] == kinds
 
 
 def test_a_forgotten_scene_is_released() -> None:

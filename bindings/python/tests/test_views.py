@@ -56,6 +56,27 @@ def test_a_view_explains_itself() -> None:
     assert isinstance(view.explain().json, dict)
 
 
+def test_a_view_is_a_scene_with_facts_of_its_own() -> None:
+    scene = raywise.Scene(*sphere(), structure="bvh")
+    view = scene.view(origin=EYE, structure="projected_bvh")
+    assert view.structure == "projected_bvh" and scene.structure == "bvh"
+    assert view.statistics.triangle_count == scene.statistics.triangle_count
+    np.testing.assert_array_equal(view.bounds.lower, scene.bounds.lower)
+    view.intersect(*rays(6, 400))
+    assert (view.statistics.rays, scene.statistics.rays) == (400, 0)
+    with pytest.raises(raywise.WrongStructure, match="projected_bvh"):
+        view.grid_statistics  # noqa: B018
+
+
+def test_a_view_of_a_view_is_one_of_its_scene() -> None:
+    scene = raywise.Scene(*soup(5, 300))
+    view = raywise.View(scene.view(origin=EYE, structure="projected_bvh"), direction=[1, 2, -3], kind="shadow")
+    scene.close()
+    origins, _ = rays(6, 400)
+    expected = raywise.Scene(*soup(5, 300)).intersect(origins, np.array([1.0, 2, -3]))
+    same_bits(view.intersect(origins, np.array([1.0, 2, -3])), expected)
+
+
 def test_a_view_outlives_its_scene() -> None:
     scene = raywise.Scene(*sphere())
     expected = scene.intersect(EYE, -EYE)

@@ -45,13 +45,15 @@ int main(int argc, char **argv) {
     int32_t (*create)(const rw_profile *, rw_scene **);
     int32_t (*add_triangles)(rw_scene *, const rw_triangles *, uint32_t *);
     int32_t (*commit)(rw_scene *, const rw_commit_options *);
-    int32_t (*intersect)(const rw_scene *, const rw_ray *, rw_hit *);
+    int32_t (*intersect)(const rw_scene *, const rw_ray *, const rw_ray_options *, rw_hit *);
+    int32_t (*normal_of)(const rw_scene *, const rw_hit *, double *);
     int32_t (*release)(const rw_scene *);
     find("rw_last_error_message", &last_error_message);
     find("rw_scene_create", &create);
     find("rw_scene_add_triangles", &add_triangles);
     find("rw_scene_commit", &commit);
     find("rw_scene_intersect", &intersect);
+    find("rw_scene_normal", &normal_of);
     find("rw_scene_release", &release);
 
     rw_scene *scene = NULL;
@@ -68,15 +70,17 @@ int main(int argc, char **argv) {
     const rw_ray down = {.origin = {-0.5, -0.25, 5}, .direction = {0, 0, -1}, .tmax = INFINITY};
     const rw_ray past = {.origin = {3, 0, 5}, .direction = {0, 0, -1}, .tmax = INFINITY};
     rw_hit hit, miss;
-    check(intersect(scene, &down, &hit), "rw_scene_intersect");
-    check(intersect(scene, &past, &miss), "rw_scene_intersect");
+    check(intersect(scene, &down, NULL, &hit), "rw_scene_intersect");
+    check(intersect(scene, &past, NULL, &miss), "rw_scene_intersect");
+    double normal[3];
+    check(normal_of(scene, &hit, normal), "rw_scene_normal");
     check(release(scene), "rw_scene_release");
 
-    printf("down: triangle %u at t = %g, normal %g %g %g\n", (unsigned)hit.primitive, hit.t, hit.normal[0],
-           hit.normal[1], hit.normal[2]);
+    printf("down: triangle %u at t = %g, normal %g %g %g\n", (unsigned)hit.primitive, hit.t, normal[0], normal[1],
+           normal[2]);
     printf("past: %s\n", miss.primitive == RW_INVALID_ID ? "no hit" : "a hit");
     const int right = hit.primitive == 2 && hit.geometry == 0 && hit.t == 4.0 && hit.u == 0.25 && hit.v == 0.375 &&
-                      hit.normal[2] == 1.0 && miss.primitive == RW_INVALID_ID && isinf(miss.t);
+                      normal[2] == 1.0 && miss.primitive == RW_INVALID_ID && isinf(miss.t);
     puts(right ? "right" : "WRONG");
     return right ? 0 : 1;
 }

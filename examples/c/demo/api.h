@@ -36,13 +36,7 @@
     X(int32_t, scene_candidate_count, (const rw_scene *, uint32_t *))                                                  \
     X(int32_t, scene_get_candidate, (const rw_scene *, uint32_t, rw_candidate *))                                      \
     X(int32_t, scene_explain, (const rw_scene *, int32_t, char *, uint64_t, uint64_t *))                               \
-    X(int32_t, view_create, (const rw_scene *, const rw_view_options *, const rw_commit_options *, rw_view **))        \
-    X(int32_t, view_release, (const rw_view *))                                                                        \
-    X(int32_t, view_intersect_batch, (const rw_view *, const rw_rays *, const rw_hits *, const rw_query_options *))    \
-    X(int32_t, view_occluded_batch, (const rw_view *, const rw_rays *, const rw_output *, const rw_query_options *))   \
-    X(int32_t, view_candidate_count, (const rw_view *, uint32_t *))                                                    \
-    X(int32_t, view_get_candidate, (const rw_view *, uint32_t, rw_candidate *))                                        \
-    X(int32_t, view_explain, (const rw_view *, int32_t, char *, uint64_t, uint64_t *))
+    X(int32_t, scene_view, (const rw_scene *, const rw_view_options *, const rw_commit_options *, rw_scene **))
 
 struct api {
     void *library;

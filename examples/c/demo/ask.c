@@ -10,18 +10,12 @@ bool ask_batch(const struct target *target, const struct ray_list *list, uint64_
     memset(&options, 0, sizeof options);
     options.struct_size = sizeof options;
     options.threads = target->threads;
-    if (!target->any_hit) {
-        if (target->view != NULL)
-            return api_ok(api, api->view_intersect_batch(target->view, &rays, hits, &options),
-                          "rw_view_intersect_batch");
+    if (!target->any_hit)
         return api_ok(api, api->scene_intersect_batch(target->scene, &rays, hits, &options),
                       "rw_scene_intersect_batch");
-    }
     rw_output output;
     memset(&output, 0, sizeof output);
     output.data = occluded;
-    if (target->view != NULL)
-        return api_ok(api, api->view_occluded_batch(target->view, &rays, &output, &options), "rw_view_occluded_batch");
     return api_ok(api, api->scene_occluded_batch(target->scene, &rays, &output, &options), "rw_scene_occluded_batch");
 }
 
@@ -29,20 +23,20 @@ static rw_output member(void *data, int32_t type) {
     rw_output output;
     memset(&output, 0, sizeof output);
     output.data = data;
-    output.stride = sizeof(rw_hit);
+    output.stride = sizeof(struct surface_hit);
     output.type = type;
     return output;
 }
 
-rw_hits ask_whole_hits(rw_hit *hits) {
+rw_hits ask_whole_hits(struct surface_hit *hits) {
     rw_hits outputs;
     memset(&outputs, 0, sizeof outputs);
     outputs.struct_size = sizeof outputs;
-    outputs.t = member(&hits->t, RW_FLOAT64);
-    outputs.uv = member(&hits->u, RW_FLOAT64);
+    outputs.t = member(&hits->hit.t, RW_FLOAT64);
+    outputs.uv = member(&hits->hit.u, RW_FLOAT64);
     outputs.normal = member(hits->normal, RW_FLOAT64);
-    outputs.instance = member(&hits->instance, RW_UINT32);
-    outputs.geometry = member(&hits->geometry, RW_UINT32);
-    outputs.primitive = member(&hits->primitive, RW_UINT32);
+    outputs.instance = member(&hits->hit.instance, RW_UINT32);
+    outputs.geometry = member(&hits->hit.geometry, RW_UINT32);
+    outputs.primitive = member(&hits->hit.primitive, RW_UINT32);
     return outputs;
 }

@@ -133,7 +133,7 @@ bool scene_force(const struct bench *bench, const rw_candidate *said, int32_t ki
 }
 
 bool view_make(const struct bench *bench, const rw_scene *scene, const rw_view_options *options, const char *structure,
-               rw_view **view, double *create_ns, bool *unfit, bool *cut) {
+               rw_scene **view, double *create_ns, bool *unfit, bool *cut) {
     const struct api *api = bench->api;
     rw_view_options wanted = *options;
     wanted.structure = structure;
@@ -145,10 +145,10 @@ bool view_make(const struct bench *bench, const rw_scene *scene, const rw_view_o
     progress_begin(&watch.progress, title);
     const rw_commit_options commit = commit_options(bench, &watch);
     const double start = clock_ns();
-    const int32_t status = api->view_create(scene, &wanted, &commit, view);
+    const int32_t status = api->scene_view(scene, &wanted, &commit, view);
     *create_ns = clock_ns() - start;
     progress_end(&watch.progress);
     *unfit = structure != NULL && status == RW_ERROR_WRONG_STRUCTURE;
     *cut = status == RW_ERROR_CANCELLED && watch.cut;
-    return *unfit || *cut || api_ok(api, status, "rw_view_create");
+    return *unfit || *cut || api_ok(api, status, "rw_scene_view");
 }

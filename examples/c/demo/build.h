@@ -44,6 +44,6 @@ bool scene_force(const struct bench *bench, const rw_candidate *said, int32_t ki
 /* A view, with how long it took to make. With a forced structure, one that cannot serve this view is not a failure:
  * *unfit is then true and there is no view; and a build that takes too long is called off: *cut is then true. */
 bool view_make(const struct bench *bench, const rw_scene *scene, const rw_view_options *options, const char *structure,
-               rw_view **view, double *create_ns, bool *unfit, bool *cut);
+               rw_scene **view, double *create_ns, bool *unfit, bool *cut);
 
 #endif

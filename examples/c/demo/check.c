@@ -15,22 +15,24 @@ enum {
 /* Bits, not values: 0 and -0 would be different answers. */
 static bool same_bits(const double *a, const double *b, size_t count) { return memcmp(a, b, count * sizeof *a) == 0; }
 
-static bool same_hit(const rw_hit *a, const rw_hit *b) {
+static bool same_hit(const struct surface_hit *one, const struct surface_hit *other) {
+    const rw_hit *a = &one->hit, *b = &other->hit;
     return same_bits(&a->t, &b->t, 1) && same_bits(&a->u, &b->u, 1) && same_bits(&a->v, &b->v, 1) &&
-           same_bits(a->normal, b->normal, 3) && a->instance == b->instance && a->geometry == b->geometry &&
+           same_bits(one->normal, other->normal, 3) && a->instance == b->instance && a->geometry == b->geometry &&
            a->primitive == b->primitive;
 }
 
-static void print_hit(const char *who, const rw_hit *hit) {
+static void print_hit(const char *who, const struct surface_hit *found) {
+    const rw_hit *hit = &found->hit;
     fprintf(stderr, "    %-14s t %a  u %a  v %a  normal %a %a %a  instance %lu geometry %lu primitive %lu\n", who,
-            hit->t, hit->u, hit->v, hit->normal[0], hit->normal[1], hit->normal[2], (unsigned long)hit->instance,
+            hit->t, hit->u, hit->v, found->normal[0], found->normal[1], found->normal[2], (unsigned long)hit->instance,
             (unsigned long)hit->geometry, (unsigned long)hit->primitive);
 }
 
-static void compare(struct check *check, const char *what, uint64_t index, const rw_hit *right, const char *who,
-                    const rw_hit *hit) {
+static void compare(struct check *check, const char *what, uint64_t index, const struct surface_hit *right,
+                    const char *who, const struct surface_hit *hit) {
     ++check->compared;
-    check->hits_among_them += right->primitive != RW_INVALID_ID;
+    check->hits_among_them += right->hit.primitive != RW_INVALID_ID;
     if (same_hit(right, hit)) return;
     if (check->different++ < 5) {
         fprintf(stderr, "raywise-demo: WRONG ANSWER to %s %llu\n", what, (unsigned long long)index);
@@ -41,7 +43,7 @@ static void compare(struct check *check, const char *what, uint64_t index, const
 
 bool check_picture(struct check *check, const struct api *api, const rw_scene *scan, uint32_t threads,
                    struct vector eye, struct vector lamp) {
-    struct target target = {api, scan, NULL, false, threads};
+    struct target target = {api, scan, false, threads};
     struct ray_list list;
     memset(&list, 0, sizeof list);
     struct progress progress;
@@ -52,7 +54,7 @@ bool check_picture(struct check *check, const struct api *api, const rw_scene *s
     list.tmax = INFINITY;
     for (uint32_t i = 0; i < check->hit_count && clock_ns() - start < CHECK_NS; i += GROUP) {
         const uint32_t count = check->hit_count - i < GROUP ? check->hit_count - i : GROUP;
-        rw_hit right[GROUP];
+        struct surface_hit right[GROUP];
         const rw_hits outputs = ask_whole_hits(right);
         if (!ask_batch(&target, &list, i, count, &outputs, NULL)) return false;
         for (uint32_t k = 0; k < count; ++k)
@@ -96,13 +98,13 @@ bool check_structures(struct check *check, const struct api *api, const struct f
     const double start = clock_ns();
     for (uint64_t i = 0; i < most && clock_ns() - start < CHECK_NS; i += GROUP) {
         const uint64_t count = most - i < GROUP ? most - i : GROUP;
-        rw_hit right[GROUP];
-        struct target target = {api, forced->scenes[scan].scene, NULL, false, threads};
+        struct surface_hit right[GROUP];
+        struct target target = {api, forced->scenes[scan].scene, false, threads};
         rw_hits outputs = ask_whole_hits(right);
         if (!ask_batch(&target, list, i, count, &outputs, NULL)) return false;
         for (uint32_t s = 0; s < decision->count; ++s) {
             if (s == scan || forced->scenes[s].scene == NULL) continue;
-            rw_hit hits[GROUP];
+            struct surface_hit hits[GROUP];
             target.scene = forced->scenes[s].scene;
             outputs = ask_whole_hits(hits);
             if (!ask_batch(&target, list, i, count, &outputs, NULL)) return false;

@@ -13,7 +13,7 @@ struct check {
     uint64_t every; /* one pixel in so many is noted */
     uint32_t hit_count;
     float directions[CHECK_MOST][3];
-    rw_hit hits[CHECK_MOST];
+    struct surface_hit hits[CHECK_MOST];
     uint32_t shadow_count;
     float shadow_directions[CHECK_MOST][3];
     uint8_t occluded[CHECK_MOST];

@@ -5,21 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool read_candidate(const struct api *api, const rw_scene *scene, const rw_view *view, uint32_t index,
-                           rw_candidate *candidate) {
+static bool read_candidate(const struct api *api, const rw_scene *scene, uint32_t index, rw_candidate *candidate) {
     memset(candidate, 0, sizeof *candidate);
     candidate->struct_size = sizeof *candidate;
-    if (view != NULL) return api_ok(api, api->view_get_candidate(view, index, candidate), "rw_view_get_candidate");
     return api_ok(api, api->scene_get_candidate(scene, index, candidate), "rw_scene_get_candidate");
 }
 
-static bool read_candidates(const struct api *api, const rw_scene *scene, const rw_view *view,
-                            struct decision *decision) {
+static bool read_candidates(const struct api *api, const rw_scene *scene, struct decision *decision) {
     uint32_t count = 0;
-    const bool counted = view != NULL
-                             ? api_ok(api, api->view_candidate_count(view, &count), "rw_view_candidate_count")
-                             : api_ok(api, api->scene_candidate_count(scene, &count), "rw_scene_candidate_count");
-    if (!counted) return false;
+    if (!api_ok(api, api->scene_candidate_count(scene, &count), "rw_scene_candidate_count")) return false;
     if (count > MOST_STRUCTURES) {
         fprintf(stderr, "raywise-demo: %u structures are more than this program has room for\n", (unsigned)count);
         return false;
@@ -29,7 +23,7 @@ static bool read_candidates(const struct api *api, const rw_scene *scene, const 
     for (uint32_t i = 0; i < count; ++i) {
         /* The name again from the list of structures, whose texts last for ever; the candidate's belongs to a scene
          * that will be gone when the table is printed. */
-        if (!read_candidate(api, scene, view, i, &decision->candidates[i].said) ||
+        if (!read_candidate(api, scene, i, &decision->candidates[i].said) ||
             !api_ok(api, api->structure_name(i, &decision->candidates[i].said.structure), "rw_structure_name"))
             return false;
         if (decision->candidates[i].said.flags & RW_CANDIDATE_CHOSEN) decision->chosen = i;
@@ -39,6 +33,16 @@ static bool read_candidates(const struct api *api, const rw_scene *scene, const 
         return false;
     }
     return true;
+}
+
+/* The same, and how long choosing took. */
+static bool read_decision(const struct api *api, const rw_scene *scene, struct decision *decision) {
+    rw_scene_statistics statistics;
+    memset(&statistics, 0, sizeof statistics);
+    statistics.struct_size = sizeof statistics;
+    if (!api_ok(api, api->scene_get_statistics(scene, &statistics), "rw_scene_get_statistics")) return false;
+    decision->decide_ns = statistics.decide_ns;
+    return read_candidates(api, scene, decision);
 }
 
 /* Totals, the best candidate, and what the choice cost beyond it. */
@@ -55,9 +59,8 @@ static void judge(struct decision *decision) {
             decision->best = i;
         }
     }
-    const double choosing = isnan(decision->decide_ns) ? 0.0 : decision->decide_ns;
     const double best = decision->candidates[decision->best].total_ns;
-    const double chosen = decision->candidates[decision->chosen].total_ns + choosing;
+    const double chosen = decision->candidates[decision->chosen].total_ns + decision->decide_ns;
     decision->regret = chosen / best - 1.0; /* NaN when the chosen one was not measured */
 }
 
@@ -89,14 +92,9 @@ bool decision_scene(const struct bench *bench, struct forced_scenes *forced, con
 
     rw_scene *scene = NULL;
     if (!scene_make(bench, NULL, RW_RAYS_RANDOM, rays, "building the chosen structure", &scene)) return false;
-    rw_scene_statistics statistics;
-    memset(&statistics, 0, sizeof statistics);
-    statistics.struct_size = sizeof statistics;
-    const bool read = api_ok(api, api->scene_get_statistics(scene, &statistics), "rw_scene_get_statistics") &&
-                      read_candidates(api, scene, NULL, decision);
+    const bool read = read_decision(api, scene, decision);
     api->scene_release(scene);
     if (!read) return false;
-    decision->decide_ns = statistics.decide_ns;
 
     struct contestant contestants[MOST_STRUCTURES];
     uint32_t racing = 0;
@@ -110,8 +108,7 @@ bool decision_scene(const struct bench *bench, struct forced_scenes *forced, con
         candidate->build_ns = own->build_ns;
         candidate->build_cut = own->cut;
         candidate->bytes = own->bytes;
-        if (own->scene != NULL)
-            contestants[racing++].target = (struct target){api, own->scene, NULL, false, bench->threads};
+        if (own->scene != NULL) contestants[racing++].target = (struct target){api, own->scene, false, bench->threads};
     }
     if (!race(bench, contestants, racing, list, decision)) return false;
     judge(decision);
@@ -120,13 +117,13 @@ bool decision_scene(const struct bench *bench, struct forced_scenes *forced, con
 
 /* A view with a candidate's structure. *view stays NULL when there can be none. */
 static bool force_view(const struct bench *bench, const rw_scene *scene, const rw_view_options *options,
-                       struct candidate *candidate, uint32_t index, rw_view **view) {
+                       struct candidate *candidate, uint32_t index, rw_scene **view) {
     double spent = 0.0;
     /* Three times, as scene_force does it. */
     for (int i = 0; i < 3 && (i == 0 || spent + spent / i < bench->cap_seconds * 1e9); ++i) {
         double create_ns = 0.0;
         bool unfit = false;
-        bench->api->view_release(*view);
+        bench->api->scene_release(*view);
         *view = NULL;
         if (!view_make(bench, scene, options, candidate->said.structure, view, &create_ns, &unfit,
                        &candidate->build_cut))
@@ -138,45 +135,44 @@ static bool force_view(const struct bench *bench, const rw_scene *scene, const r
         spent += create_ns;
     }
     rw_candidate facts;
-    if (!read_candidate(bench->api, NULL, *view, index, &facts)) return false;
+    if (!read_candidate(bench->api, *view, index, &facts)) return false;
     candidate->bytes = facts.actual_bytes;
     return true;
 }
 
 bool decision_view(const struct bench *bench, const rw_scene *scene, const rw_view_options *options,
-                   const struct ray_list *list, const char *title, struct decision *decision, rw_view **view) {
+                   const struct ray_list *list, const char *title, struct decision *decision, rw_scene **view) {
     const struct api *api = bench->api;
     memset(decision, 0, sizeof *decision);
     snprintf(decision->title, sizeof decision->title, "%s", title);
     decision->rays = options->count;
-    decision->decide_ns = NAN; /* a view does not tell; it is within the time to make it */
 
-    rw_view *chosen = NULL;
+    rw_scene *chosen = NULL;
     double create_ns = 0.0;
     bool unfit = false;
     bool cut = false;
     if (!view_make(bench, scene, options, NULL, &chosen, &create_ns, &unfit, &cut)) return false;
 
     struct contestant contestants[MOST_STRUCTURES];
-    rw_view *views[MOST_STRUCTURES] = {NULL};
+    rw_scene *views[MOST_STRUCTURES] = {NULL};
     uint32_t racing = 0;
     memset(contestants, 0, sizeof contestants);
-    bool good = read_candidates(api, NULL, chosen, decision);
+    bool good = read_decision(api, chosen, decision);
     for (uint32_t i = 0; good && i < decision->count; ++i) {
         struct candidate *candidate = &decision->candidates[i];
         if (candidate->said.flags & (RW_CANDIDATE_NOT_APPLICABLE | RW_CANDIDATE_OVER_LIMIT)) continue;
         good = force_view(bench, scene, options, candidate, i, &views[i]);
         const bool any_hit = options->ray_kind == RW_RAYS_SHADOW;
         if (good && views[i] != NULL)
-            contestants[racing++].target = (struct target){api, scene, views[i], any_hit, bench->threads};
+            contestants[racing++].target = (struct target){api, views[i], any_hit, bench->threads};
     }
     good = good && race(bench, contestants, racing, list, decision);
     if (good) judge(decision);
-    for (uint32_t i = 0; i < MOST_STRUCTURES; ++i) api->view_release(views[i]);
+    for (uint32_t i = 0; i < MOST_STRUCTURES; ++i) api->scene_release(views[i]);
     if (good)
         *view = chosen;
     else
-        api->view_release(chosen);
+        api->scene_release(chosen);
     return good;
 }
 

@@ -19,7 +19,7 @@ struct candidate {
 struct decision {
     char title[48]; /* "1,000 random rays" */
     uint64_t rays;
-    double decide_ns; /* what choosing took; NaN: not known */
+    double decide_ns; /* what choosing took */
     uint32_t count;
     uint32_t chosen; /* index of the one that the library took */
     uint32_t best;   /* index of the one that would have been soonest */
@@ -34,7 +34,7 @@ bool decision_scene(const struct bench *bench, struct forced_scenes *forced, con
 /* The same for a view of a committed scene. `options` without a structure; the view that the library chose goes to
  * `view` and is the caller's to release. */
 bool decision_view(const struct bench *bench, const rw_scene *scene, const rw_view_options *options,
-                   const struct ray_list *list, const char *title, struct decision *decision, rw_view **view);
+                   const struct ray_list *list, const char *title, struct decision *decision, rw_scene **view);
 
 /* Index of a structure's name in a decision, or its count when it is not there. */
 uint32_t decision_find(const struct decision *decision, const char *structure);

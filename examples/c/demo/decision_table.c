@@ -65,7 +65,7 @@ static void print_candidate(const struct decision *decision, uint32_t index, boo
 void decision_print(const struct decision *decision) {
     struct number text;
     printf("\n%s: %s", decision->title, decision->candidates[decision->chosen].said.structure);
-    if (!isnan(decision->decide_ns)) printf(", chosen in %s ms", number_short(&text, decision->decide_ns / 1e6, 0));
+    printf(", chosen in %s ms", number_short(&text, decision->decide_ns / 1e6, 0));
     printf("; regret %s\n", decision_regret(&text, decision->regret));
     printf("   %-14s %17s %19s %8s %19s %11s\n", "", "build ms", "ns per ray", "bytes", "total ms", "pays off");
     printf("   %-14s %8s %8s %9s %9s %8s %9s %9s %11s\n", "structure", "said", "took", "said", "took", "", "said",

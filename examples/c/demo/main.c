@@ -45,8 +45,8 @@ struct demo {
     struct ray_list shadow_rays;
     struct forced_scenes forced;
     rw_scene *picture_scene;
-    rw_view *camera_view;
-    rw_view *lamp_view;
+    rw_scene *camera_view;
+    rw_scene *lamp_view;
     rw_triangles meshes[2];
     struct decision decisions[MOST_DECISIONS];
     uint32_t decision_count;
@@ -60,20 +60,16 @@ static struct bench bench_of(const struct demo *demo, uint32_t meshes) {
     return (struct bench){&demo->api, demo->profile, demo->meshes, meshes, demo->args.threads, demo->args.cap_seconds};
 }
 
-static bool explain(const struct demo *demo, const rw_scene *scene, const rw_view *view) {
+static bool explain(const struct demo *demo, const rw_scene *scene) {
     const struct api *api = &demo->api;
     uint64_t needed = 0;
-    const int32_t asked = view != NULL ? api->view_explain(view, RW_FORMAT_TEXT, NULL, 0, &needed)
-                                       : api->scene_explain(scene, RW_FORMAT_TEXT, NULL, 0, &needed);
-    if (!api_ok(api, asked, "rw_*_explain")) return false;
+    if (!api_ok(api, api->scene_explain(scene, RW_FORMAT_TEXT, NULL, 0, &needed), "rw_scene_explain")) return false;
     char *text = malloc(needed != 0 ? needed : 1);
     if (text == NULL) {
         fprintf(stderr, "raywise-demo: out of memory\n");
         return false;
     }
-    const int32_t told = view != NULL ? api->view_explain(view, RW_FORMAT_TEXT, text, needed, NULL)
-                                      : api->scene_explain(scene, RW_FORMAT_TEXT, text, needed, NULL);
-    const bool good = api_ok(api, told, "rw_*_explain");
+    const bool good = api_ok(api, api->scene_explain(scene, RW_FORMAT_TEXT, text, needed, NULL), "rw_scene_explain");
     if (good) printf("\n%s\n", text);
     free(text);
     return good;
@@ -146,7 +142,7 @@ static bool decide_views(struct demo *demo) {
     const uint64_t pixels = (uint64_t)size * size;
     if (!scene_make(&bench, NULL, RW_RAYS_CAMERA, pixels, "building the picture's scene", &demo->picture_scene))
         return false;
-    if (demo->args.explain && !explain(demo, demo->picture_scene, NULL)) return false;
+    if (demo->args.explain && !explain(demo, demo->picture_scene)) return false;
 
     char title[64];
     struct number number;
@@ -160,9 +156,9 @@ static bool decide_views(struct demo *demo) {
         return false;
     demo->view_count = 1;
     decision_print(&demo->views[0]);
-    if (demo->args.explain && !explain(demo, NULL, demo->camera_view)) return false;
+    if (demo->args.explain && !explain(demo, demo->camera_view)) return false;
 
-    const struct target camera = {api, demo->picture_scene, demo->camera_view, false, demo->args.threads};
+    const struct target camera = {api, demo->camera_view, false, demo->args.threads};
     if (!render_shadow_rays(&look, &camera, &demo->camera_rays, &demo->shadow_rays)) return false;
     if (demo->shadow_rays.count == 0) {
         printf("\nNothing that the camera sees faces the lamp: no shadow rays.\n");
@@ -175,7 +171,7 @@ static bool decide_views(struct demo *demo) {
         return false;
     demo->view_count = 2;
     decision_print(&demo->views[1]);
-    return !demo->args.explain || explain(demo, NULL, demo->lamp_view);
+    return !demo->args.explain || explain(demo, demo->lamp_view);
 }
 
 static bool make_picture(struct demo *demo) {
@@ -183,8 +179,8 @@ static bool make_picture(struct demo *demo) {
     const uint32_t threads = demo->args.threads;
     const bool ground = demo->model.wants_ground;
     const struct look look = {&demo->model, ground ? &demo->ground : NULL, &demo->stage, &demo->camera, &demo->lamp};
-    const struct target camera = {api, demo->picture_scene, demo->camera_view, false, threads};
-    const struct target lamp = {api, demo->picture_scene, demo->lamp_view, true, threads};
+    const struct target camera = {api, demo->camera_view, false, threads};
+    const struct target lamp = {api, demo->lamp_view, true, threads};
     if (!render(&demo->picture, &look, &camera, &lamp, demo->args.samples, &demo->check) ||
         !png_write(&demo->picture, demo->args.output))
         return false;
@@ -237,8 +233,8 @@ static void clean_up(struct demo *demo) {
     ray_list_free(&demo->shadow_rays);
     if (demo->api.library == NULL) return;
     /* Scenes before the meshes that they share. */
-    demo->api.view_release(demo->camera_view);
-    demo->api.view_release(demo->lamp_view);
+    demo->api.scene_release(demo->camera_view);
+    demo->api.scene_release(demo->lamp_view);
     demo->api.scene_release(demo->picture_scene);
     forced_free(&demo->forced, &demo->api);
     model_free(&demo->model, &demo->api);

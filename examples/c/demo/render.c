@@ -13,7 +13,7 @@
 #define MORE_SAMPLES_NS 15e9
 
 struct buffers {
-    rw_hit *hits;
+    struct surface_hit *hits;
     struct ray_list camera;
     struct ray_list shadows;
     uint32_t *shadow_pixel; /* of each shadow ray, within the block */
@@ -168,7 +168,7 @@ bool render_shadow_rays(const struct look *look, const struct target *camera, co
                         struct ray_list *shadows) {
     const uint32_t size = look->camera->size;
     const uint64_t block = (uint64_t)block_rows(size) * size;
-    rw_hit *hits = calloc(block, sizeof *hits);
+    struct surface_hit *hits = calloc(block, sizeof *hits);
     if (hits == NULL || !ray_list_reserve(shadows, list->count, false)) {
         if (hits == NULL) fprintf(stderr, "raywise-demo: out of memory for the shadow rays\n");
         free(hits);

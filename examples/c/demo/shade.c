@@ -37,9 +37,10 @@ static struct vector smooth_normal(const struct model *model, const rw_hit *hit,
     return vector_unit(sum);
 }
 
-void shade_hit(const struct look *look, const rw_hit *hit, const float direction[3], double height,
+void shade_hit(const struct look *look, const struct surface_hit *found, const float direction[3], double height,
                struct shade *shade) {
     memset(shade, 0, sizeof *shade);
+    const rw_hit *hit = &found->hit;
     const struct vector behind = backdrop(height);
     if (hit->primitive == RW_INVALID_ID) {
         shade->dark = behind;
@@ -49,7 +50,7 @@ void shade_hit(const struct look *look, const rw_hit *hit, const float direction
     const struct vector ray = {direction[0], direction[1], direction[2]};
     const struct vector point = vector_add(look->camera->eye, vector_scale(ray, hit->t));
     const bool on_ground = look->ground != NULL && hit->geometry == 1;
-    struct vector face = {hit->normal[0], hit->normal[1], hit->normal[2]};
+    struct vector face = {found->normal[0], found->normal[1], found->normal[2]};
     struct vector normal = on_ground ? face : smooth_normal(look->model, hit, face);
     /* Two-sided: meshes from files are open or wound inside out often enough. */
     if (vector_dot(face, ray) > 0.0) {

@@ -2,6 +2,7 @@
 #ifndef DEMO_SHADE_H
 #define DEMO_SHADE_H
 
+#include "ask.h"
 #include "camera.h"
 #include "ground.h"
 #include "model.h"
@@ -23,7 +24,7 @@ struct shade {
 };
 
 /* direction: of the camera ray. height: 0 at the picture's top, 1 at its bottom. */
-void shade_hit(const struct look *look, const rw_hit *hit, const float direction[3], double height,
+void shade_hit(const struct look *look, const struct surface_hit *found, const float direction[3], double height,
                struct shade *shade);
 
 #endif

@@ -39,7 +39,7 @@ void measure_linear_scan(SceneUnderTest& scene) {
     Session& session = scene.session();
     if (scene.triangles() > most_triangles || !session.wants_rays("random")) return;
     session.show_progress("linear scan");
-    const std::unique_ptr<Subject> scan = raywise_subject("raywise linear_scan", session.library, "linear_scan");
+    const std::unique_ptr<Subject> scan = raywise_subject({"raywise linear_scan", "linear_scan", {}}, session.library);
     Cell cell = scene.cell("linear_scan", "random", Question::closest);
     cell.unit = "ns/triangle";
     cell.higher_is_better = false;

@@ -1,6 +1,7 @@
 // What a call costs: rays that miss the box around the scene, so that next to nothing else is done. The batch call does the same
 // for each ray without crossing the interface; what single calls take longer is the price of the call.
 #include "bench/sections/section.h"
+#include "bench/subjects/yardstick_subject.h"
 #include "bench/table.h"
 
 #include "rays/rays.h"
@@ -34,21 +35,24 @@ void measure_overhead(SceneUnderTest& scene) {
         cell.count = rays.size();
         std::vector<Entry> entries;
         Answers answers;
+        const auto add = [&](const Subject& subject, Call call) {
+            if (!subject.has(call)) return;
+            QueryRequest request{rays};
+            request.question = question;
+            request.call = call;
+            if (call == Call::batch) request.answers = &answers;
+            entries.push_back({&subject,
+                               subject.name() + (call == Call::batch ? ", batch" : ""),
+                               scene.built(subject, 0).query(request),
+                               rays.size(),
+                               {}});
+        };
         for (const auto& subject : session.subjects) {
             if (subject->traits().slow || subject->traits().chooses) continue;
-            for (const Call call : {Call::single, Call::batch}) {
-                if (!subject->has(call)) continue;
-                QueryRequest request{rays};
-                request.question = question;
-                request.call = call;
-                if (call == Call::batch) request.answers = &answers;
-                entries.push_back({subject.get(),
-                                   subject->name() + (call == Call::batch ? ", batch" : ""),
-                                   scene.built(*subject, 0).query(request),
-                                   rays.size(),
-                                   {}});
-            }
+            add(*subject, Call::single);
+            add(*subject, Call::batch);
         }
+        for (const auto& subject : session.yardstick) add(*subject, Call::single);
         time_rays(scene, cell, entries, session.effort.timing);
         cell.unit = "ns/ray";
         cell.higher_is_better = false;
@@ -58,16 +62,20 @@ void measure_overhead(SceneUnderTest& scene) {
 }
 
 std::string overhead_table(const Session& session) {
-    Table table("One call, 1 thread, rays that miss the scene's box: ns per ray",
-                {"query", "bvh, single", "bvh, batch", "difference", "best peer, single", ""});
+    Table table(
+        "One call, 1 thread, rays that miss the scene's box: ns per ray",
+        {"query", "bvh, single", "bvh, batch", "difference", "best peer, single", "", "bvh beyond it", "yardstick"});
     for (const Cell& cell : session.cells) {
         if (cell.section != "overhead") continue;
         const Value* const single = cell.of(ours_forced);
         const Value* const batch = cell.of(std::string(ours_forced) + ", batch");
         const Value* const peer = cell.best_peer();
+        const Value* const yardstick = cell.of(yardstick_name);
         if (single == nullptr || batch == nullptr) continue;
         table.add({cell.query, digits(single->value), digits(batch->value), digits(single->value - batch->value),
-                   peer != nullptr ? digits(peer->value) : "", peer != nullptr ? peer->subject : ""});
+                   peer != nullptr ? digits(peer->value) : "", peer != nullptr ? peer->subject : "",
+                   peer != nullptr ? digits(single->value - peer->value) : "",
+                   yardstick != nullptr ? digits(yardstick->value) : ""});
     }
     return table.empty() ? std::string() : table.text();
 }

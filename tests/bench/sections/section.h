@@ -13,6 +13,7 @@ struct Section {
     const char* description;
     void (*measure)(SceneUnderTest& scene);
     std::string (*table)(const Session& session); // of all scenes
+    bool far_apart;                               // takes scenes whose rows say so, too
 };
 
 // In the order they run.
@@ -32,6 +33,8 @@ void measure_totals(SceneUnderTest& scene);
 std::string totals_table(const Session& session);
 void measure_linear_scan(SceneUnderTest& scene);
 std::string linear_scan_table(const Session& session);
+void measure_hit_counts(SceneUnderTest& scene);
+std::string hit_counts_table(const Session& session);
 void measure_overhead(SceneUnderTest& scene);
 std::string overhead_table(const Session& session);
 

@@ -47,4 +47,21 @@ void EmbreeLibrary::check(RTCDevice device, const char* what) const {
     }
 }
 
+std::string EmbreeLibrary::instruction_set(const char* configuration) const {
+    constexpr struct {
+        RTCDeviceProperty rays;
+        const char* name;
+    } widths[] = {{RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED, "AVX3"},
+                  {RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED, "AVX2"},
+                  {RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED, "SSE4"}};
+    const RTCDevice device = rtcNewDevice(configuration);
+    if (device == nullptr) throw std::runtime_error("Embree " + version_ + " gives no device for " + configuration);
+    std::string found;
+    for (const auto& width : widths) {
+        if (found.empty() && rtcGetDeviceProperty(device, width.rays) != 0) found = width.name;
+    }
+    rtcReleaseDevice(device);
+    return found;
+}
+
 } // namespace raywise::bench

@@ -37,6 +37,8 @@ public:
     int major() const { return major_; }
     const std::string& version() const { return version_; }
     void check(RTCDevice device, const char* what) const;
+    // What a device of that configuration uses, by Highway's names. Embree tells how wide it works, and no more.
+    std::string instruction_set(const char* configuration) const;
 
 #define RW_BENCH_MEMBER(function) decltype(&::function) function = nullptr;
     RW_BENCH_EMBREE_FUNCTIONS(RW_BENCH_MEMBER)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/subjects/chunks.h"
+#include "bench/subjects/copy_vectors.h"
 #include "bench/subjects/embree_calls.h"
 #include "bench/subjects/subject.h"
 
@@ -9,6 +10,13 @@
 #include <limits>
 
 namespace raywise::bench {
+
+// What a ray is handed over with that has met nothing yet.
+inline RTCHit hit_of_nothing() {
+    RTCHit hit{};
+    hit.primID = hit.geomID = hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return hit;
+}
 
 // Embree sets an occluded ray's tfar to minus infinity.
 inline bool is_occluded(float tfar) { return tfar < -std::numeric_limits<float>::max(); }
@@ -48,11 +56,12 @@ public:
 private:
     std::uint64_t closest(std::size_t first, std::size_t last) const {
         typename Calls::Context context(calls_);
+        const RTCHit no_hit = hit_of_nothing();
         typename Calls::RayHit query;
         std::uint64_t hits = 0;
         for (std::size_t i = first; i < last; ++i) {
-            query.ray = rays_[i];
-            query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            copy_by_four(query.ray, rays_[i]);
+            copy_by_four(query.hit, no_hit);
             context.intersect(query);
             const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
             hits += hit ? 1 : 0;
@@ -68,8 +77,9 @@ private:
     std::uint64_t any(std::size_t first, std::size_t last) const {
         typename Calls::Context context(calls_);
         std::uint64_t hits = 0;
+        RTCRay ray;
         for (std::size_t i = first; i < last; ++i) {
-            RTCRay ray = rays_[i];
+            copy_by_four(ray, rays_[i]);
             context.occluded(ray);
             const bool hit = is_occluded(ray.tfar);
             hits += hit ? 1 : 0;
@@ -138,7 +148,7 @@ private:
         for (std::size_t i = first; i < last; i += width) {
             const std::size_t rays = lanes(i, last);
             set_valid(valid, rays);
-            query.ray = packets_[i / width];
+            copy_by_eight(query.ray, packets_[i / width]);
             std::fill_n(query.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
             std::fill_n(query.hit.instID[0], width, RTC_INVALID_GEOMETRY_ID);
             context.intersect(valid, query);
@@ -157,12 +167,13 @@ private:
 
     std::uint64_t any(std::size_t first, std::size_t last) const {
         typename Calls::Context context(calls_);
+        RTCRay8 query;
         alignas(32) int valid[width];
         std::uint64_t hits = 0;
         for (std::size_t i = first; i < last; i += width) {
             const std::size_t rays = lanes(i, last);
             set_valid(valid, rays);
-            RTCRay8 query = packets_[i / width];
+            copy_by_eight(query, packets_[i / width]);
             context.occluded(valid, query);
             for (std::size_t lane = 0; lane < rays; ++lane) {
                 const bool hit = is_occluded(query.tfar[lane]);

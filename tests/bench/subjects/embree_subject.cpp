@@ -30,8 +30,9 @@ bool count_bytes(void* account, ssize_t bytes, bool) {
 // A device of so many threads, and its account. Made once: it belongs to the start of a program, not to the building of a scene.
 class Device {
 public:
-    Device(const EmbreeLibrary& library, unsigned threads)
-        : library_(library), device_(library.rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+    Device(const EmbreeLibrary& library, unsigned threads, const std::string& configuration)
+        : library_(library),
+          device_(library.rtcNewDevice(("threads=" + std::to_string(threads) + "," + configuration).c_str())) {
         if (device_ == nullptr) throw std::runtime_error("Embree gives no device");
         library_.rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &account);
     }
@@ -106,7 +107,7 @@ public:
 
     std::unique_ptr<Built> build(const BuildRequest& request) const override {
         std::unique_ptr<Device>& device = request.threads == 1 ? one_thread_ : all_threads_;
-        if (!device) device = std::make_unique<Device>(library_, request.threads);
+        if (!device) device = std::make_unique<Device>(library_, request.threads, settings_.device);
         return std::make_unique<EmbreeScene>(library_, *device, settings_, request.mesh);
     }
 
@@ -125,6 +126,7 @@ std::unique_ptr<Subject> embree_subject(const EmbreeLibrary& library, const Embr
     traits.robust = (settings.flags & RTC_SCENE_FLAG_ROBUST) != 0;
     traits.totals = settings.contends;
     traits.batches = settings.contends && settings.quality != RTC_BUILD_QUALITY_LOW;
+    traits.instruction_set = library.instruction_set(settings.device);
     traits.calls = {Call::single, Call::packet};
     return std::make_unique<Embree>(std::move(traits), library, settings);
 }

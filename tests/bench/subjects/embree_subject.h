@@ -8,8 +8,9 @@ namespace raywise::bench {
 struct EmbreeSettings {
     const char* name; // after "Embree 3 "
     RTCBuildQuality quality;
-    int flags;     // of RTCSceneFlags
-    bool contends; // in totals and batches, where settings that are never best are left out
+    int flags;               // of RTCSceneFlags
+    bool contends;           // in totals and batches, where settings that are never best are left out
+    const char* device = ""; // of its configuration, beside the number of threads
 };
 
 std::unique_ptr<Subject> embree_subject(const EmbreeLibrary& library, const EmbreeSettings& settings);

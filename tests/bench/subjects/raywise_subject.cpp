@@ -1,20 +1,28 @@
 #include "bench/subjects/raywise_subject.h"
 
 #include <utility>
+#include <vector>
 
 namespace raywise::bench {
 namespace {
+
+std::vector<double> moved(const std::vector<float>& points, const Vec3& offset) {
+    std::vector<double> result(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        result[i] = static_cast<double>(points[i]) + offset[static_cast<int>(i % 3)];
+    return result;
+}
 
 // Ray by ray; rw_ray is made of doubles, which hold float32 without loss.
 template <Question question>
 class SingleQuery : public Query {
 public:
-    SingleQuery(const Library& library, const rw_scene* scene, const RaySet& rays)
+    SingleQuery(const Library& library, const rw_scene* scene, const RaySet& rays, const Vec3& offset)
         : intersect_(library.rw_scene_intersect), occluded_(library.rw_scene_occluded), scene_(scene) {
         rays_.resize(rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                rays_[i].origin[axis] = static_cast<double>(rays.origin[3 * i + axis]);
+                rays_[i].origin[axis] = static_cast<double>(rays.origin[3 * i + axis]) + offset[static_cast<int>(axis)];
                 rays_[i].direction[axis] = static_cast<double>(rays.direction[3 * i + axis]);
             }
             rays_[i].tmin = static_cast<double>(rays.tmin[i]);
@@ -27,11 +35,11 @@ public:
         for (std::size_t i = first; i < last; ++i) {
             if constexpr (question == Question::any) {
                 std::int32_t occluded = 0;
-                occluded_(scene_, &rays_[i], &occluded);
+                occluded_(scene_, &rays_[i], nullptr, &occluded);
                 hits += occluded != 0 ? 1 : 0;
             } else {
                 rw_hit hit;
-                intersect_(scene_, &rays_[i], &hit);
+                intersect_(scene_, &rays_[i], nullptr, &hit);
                 hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
             }
         }
@@ -47,7 +55,7 @@ private:
 
 class BatchQuery : public Query {
 public:
-    BatchQuery(const Library& library, const rw_scene* scene, const QueryRequest& request)
+    BatchQuery(const Library& library, const rw_scene* scene, const QueryRequest& request, const Vec3& offset)
         : library_(library),
           scene_(scene),
           rays_(request.rays),
@@ -56,6 +64,7 @@ public:
         answers_.make_room(rays_.size(), question_);
         options_.struct_size = sizeof options_;
         options_.threads = request.threads;
+        if (offset != Vec3(0.0)) origins_ = moved(rays_.origin, offset);
     }
 
     std::uint64_t ask(std::size_t first, std::size_t last) override {
@@ -63,6 +72,10 @@ public:
         rays.struct_size = sizeof rays;
         rays.count = last - first;
         rays.origin.data = &rays_.origin[3 * first];
+        if (!origins_.empty()) {
+            rays.origin.data = &origins_[3 * first];
+            rays.origin.type = RW_FLOAT64;
+        }
         rays.direction.data = &rays_.direction[3 * first];
         rays.tmin.data = &rays_.tmin[first];
         rays.tmax.data = &rays_.tmax[first];
@@ -88,6 +101,7 @@ private:
     const Library& library_;
     const rw_scene* scene_;
     RaySet rays_;
+    std::vector<double> origins_; // of a scene that lies elsewhere, instead of the float32 ones
     Question question_;
     Answers own_answers_;
     Answers& answers_;
@@ -97,7 +111,7 @@ private:
 class RaywiseScene : public Built {
 public:
     RaywiseScene(const Library& library, const char* structure, const BuildRequest& request)
-        : library_(library), scene_(nullptr, library.rw_scene_release) {
+        : library_(library), offset_(request.offset), scene_(nullptr, library.rw_scene_release) {
         rw_scene* scene = nullptr;
         library.check(library.rw_scene_create(nullptr, &scene));
         scene_.reset(scene);
@@ -106,6 +120,11 @@ public:
         triangles.flags = RW_TRIANGLES_SHARED;
         triangles.vertex_count = request.mesh.vertex_count();
         triangles.vertices.data = request.mesh.vertices.data();
+        if (offset_ != Vec3(0.0)) {
+            vertices_ = moved(request.mesh.vertices, offset_);
+            triangles.vertices.data = vertices_.data();
+            triangles.vertices.type = RW_FLOAT64;
+        }
         triangles.triangle_count = request.mesh.triangle_count();
         triangles.indices.data = request.mesh.indices.data();
         library.check(library.rw_scene_add_triangles(scene, &triangles, nullptr));
@@ -122,10 +141,10 @@ public:
     }
 
     std::unique_ptr<Query> query(const QueryRequest& request) const override {
-        if (request.call == Call::batch) return std::make_unique<BatchQuery>(library_, scene_.get(), request);
+        if (request.call == Call::batch) return std::make_unique<BatchQuery>(library_, scene_.get(), request, offset_);
         if (request.question == Question::any)
-            return std::make_unique<SingleQuery<Question::any>>(library_, scene_.get(), request.rays);
-        return std::make_unique<SingleQuery<Question::closest>>(library_, scene_.get(), request.rays);
+            return std::make_unique<SingleQuery<Question::any>>(library_, scene_.get(), request.rays, offset_);
+        return std::make_unique<SingleQuery<Question::closest>>(library_, scene_.get(), request.rays, offset_);
     }
 
     double bytes() const override {
@@ -144,6 +163,8 @@ private:
     }
 
     const Library& library_;
+    Vec3 offset_;
+    std::vector<double> vertices_; // float64, where the mesh lies elsewhere
     std::unique_ptr<rw_scene, decltype(&::rw_scene_release)> scene_;
 };
 
@@ -163,9 +184,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subject> raywise_subject(std::string name, const Library& library, const char* structure) {
+std::unique_ptr<Subject> raywise_subject(const RaywiseSettings& settings, const Library& library) {
+    const char* const structure = settings.structure;
     Traits traits;
-    traits.name = std::move(name);
+    traits.name = settings.name;
+    traits.instruction_set = settings.instruction_set;
     traits.peer = false;
     traits.robust = true;
     traits.chooses = structure == nullptr;

@@ -5,8 +5,14 @@
 
 namespace raywise::bench {
 
-// raywise through its C interface. structure: forced by name; nullptr: the library chooses.
-std::unique_ptr<Subject> raywise_subject(std::string name, const Library& library, const char* structure);
+struct RaywiseSettings {
+    std::string name;
+    const char* structure;       // forced by name; nullptr: the library chooses
+    std::string instruction_set; // what the library's kernels are dispatched to
+};
+
+// raywise through its C interface.
+std::unique_ptr<Subject> raywise_subject(const RaywiseSettings& settings, const Library& library);
 
 // Whether the library has a structure of that name.
 bool has_structure(const Library& library, const std::string& structure);

@@ -67,6 +67,8 @@ public:
 
 struct BuildRequest {
     const workloads::Mesh& mesh; // used in place where the subject can; outlives the scene
+    // Where the mesh lies for who takes float64; the others find it at the origin, as do all rays.
+    Vec3 offset = Vec3(0.0);
     unsigned threads = 1;
     // For who chooses by it: the kind of ray (position in workloads::ray_distributions()), and how many are coming.
     std::size_t kind = 0;
@@ -82,6 +84,8 @@ struct Traits {
     bool slow = false;    // kept away from large scenes and long runs
     bool totals = false;  // takes part in the totals from cold
     bool batches = false; // and in the batches of many rays
+    std::string
+        instruction_set; // of its vectors, by Highway's names: "AVX3" (AVX-512), "AVX2", "SSE4" ...; empty: not known
     std::vector<Call> calls;
 };
 

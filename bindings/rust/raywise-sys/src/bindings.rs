@@ -408,7 +408,7 @@ impl Default for rw_triangles {
 pub struct rw_mesh {
     _unused: [u8; 0],
 }
-/// One ray. float32 rays convert without loss.
+/// One ray.
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct rw_ray {
@@ -444,6 +444,41 @@ fn bindgen_test_layout_rw_ray() {
         unsafe { ::std::ptr::addr_of!((*ptr).tmax) as usize - ptr as usize },
         56usize,
         "Offset of field: rw_ray::tmax",
+    );
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct rw_ray_f32 {
+    pub origin: [f32; 3usize],
+    pub tmin: f32,
+    pub direction: [f32; 3usize],
+    pub tmax: f32,
+}
+#[test]
+fn bindgen_test_layout_rw_ray_f32() {
+    const UNINIT: ::std::mem::MaybeUninit<rw_ray_f32> = ::std::mem::MaybeUninit::uninit();
+    let ptr = UNINIT.as_ptr();
+    assert_eq!(::std::mem::size_of::<rw_ray_f32>(), 32usize, "Size of rw_ray_f32");
+    assert_eq!(::std::mem::align_of::<rw_ray_f32>(), 4usize, "Alignment of rw_ray_f32");
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).origin) as usize - ptr as usize },
+        0usize,
+        "Offset of field: rw_ray_f32::origin",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).tmin) as usize - ptr as usize },
+        12usize,
+        "Offset of field: rw_ray_f32::tmin",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).direction) as usize - ptr as usize },
+        16usize,
+        "Offset of field: rw_ray_f32::direction",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).tmax) as usize - ptr as usize },
+        28usize,
+        "Offset of field: rw_ray_f32::tmax",
     );
 }
 /// A triangle by its ids: the last three of a rw_hit, in the same order.
@@ -495,8 +530,8 @@ pub struct rw_ray_options {
     pub skip_count: u32,
     /**
 ```text
-skip_count triangles the ray passes through without a hit, in any order, repeats allowed;
-NULL when skip_count is 0
+skip_count triangles that the ray passes through without a hit, in any order, repeats allowed; NULL when
+skip_count is 0.
 ```
 */
     pub skip: *const rw_primitive_id,
@@ -542,8 +577,9 @@ impl Default for rw_ray_options {
 }
 /**
 ```text
-One answer. The point hit is origin + t * direction = (1 - u - v) * v0 + u * v1 + v * v2.
-A miss has t = INFINITY, u = v = 0, a zero normal and RW_INVALID_ID in all ids.
+One answer. The point hit is origin + t * direction = (1 - u - v) * v0 + u * v1 + v * v2. The normal is asked for
+where it is wanted: rw_scene_normal.
+A miss has t = INFINITY, u = v = 0 and RW_INVALID_ID in all ids.
 ```
 */
 #[repr(C)]
@@ -552,8 +588,6 @@ pub struct rw_hit {
     pub t: f64,
     pub u: f64,
     pub v: f64,
-    /// geometric, unit length, (v1 - v0) x (v2 - v0): right-hand rule
-    pub normal: [f64; 3usize],
     /// RW_INVALID_ID while the scene has no instances
     pub instance: u32,
     /// as given by rw_scene_add_triangles
@@ -567,7 +601,7 @@ pub struct rw_hit {
 fn bindgen_test_layout_rw_hit() {
     const UNINIT: ::std::mem::MaybeUninit<rw_hit> = ::std::mem::MaybeUninit::uninit();
     let ptr = UNINIT.as_ptr();
-    assert_eq!(::std::mem::size_of::<rw_hit>(), 64usize, "Size of rw_hit");
+    assert_eq!(::std::mem::size_of::<rw_hit>(), 40usize, "Size of rw_hit");
     assert_eq!(::std::mem::align_of::<rw_hit>(), 8usize, "Alignment of rw_hit");
     assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).t) as usize - ptr as usize },
@@ -585,29 +619,71 @@ fn bindgen_test_layout_rw_hit() {
         "Offset of field: rw_hit::v",
     );
     assert_eq!(
-        unsafe { ::std::ptr::addr_of!((*ptr).normal) as usize - ptr as usize },
-        24usize,
-        "Offset of field: rw_hit::normal",
-    );
-    assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).instance) as usize - ptr as usize },
-        48usize,
+        24usize,
         "Offset of field: rw_hit::instance",
     );
     assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).geometry) as usize - ptr as usize },
-        52usize,
+        28usize,
         "Offset of field: rw_hit::geometry",
     );
     assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).primitive) as usize - ptr as usize },
-        56usize,
+        32usize,
         "Offset of field: rw_hit::primitive",
     );
     assert_eq!(
         unsafe { ::std::ptr::addr_of!((*ptr).reserved) as usize - ptr as usize },
-        60usize,
+        36usize,
         "Offset of field: rw_hit::reserved",
+    );
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct rw_hit_f32 {
+    pub t: f32,
+    pub u: f32,
+    pub v: f32,
+    pub instance: u32,
+    pub geometry: u32,
+    pub primitive: u32,
+}
+#[test]
+fn bindgen_test_layout_rw_hit_f32() {
+    const UNINIT: ::std::mem::MaybeUninit<rw_hit_f32> = ::std::mem::MaybeUninit::uninit();
+    let ptr = UNINIT.as_ptr();
+    assert_eq!(::std::mem::size_of::<rw_hit_f32>(), 24usize, "Size of rw_hit_f32");
+    assert_eq!(::std::mem::align_of::<rw_hit_f32>(), 4usize, "Alignment of rw_hit_f32");
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).t) as usize - ptr as usize },
+        0usize,
+        "Offset of field: rw_hit_f32::t",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).u) as usize - ptr as usize },
+        4usize,
+        "Offset of field: rw_hit_f32::u",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).v) as usize - ptr as usize },
+        8usize,
+        "Offset of field: rw_hit_f32::v",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).instance) as usize - ptr as usize },
+        12usize,
+        "Offset of field: rw_hit_f32::instance",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).geometry) as usize - ptr as usize },
+        16usize,
+        "Offset of field: rw_hit_f32::geometry",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).primitive) as usize - ptr as usize },
+        20usize,
+        "Offset of field: rw_hit_f32::primitive",
     );
 }
 /// Many rays.
@@ -628,8 +704,11 @@ pub struct rw_rays {
     pub tmax: rw_array,
     /**
 ```text
-count + 1 numbers that never fall: ray i has the entries skip_offsets[i] up to, but without,
-skip_offsets[i + 1]; NULL: entry i alone is for ray i
+Triangles that single rays pass through without a hit: the one a ray starts on, say, or those it has met before.
+Entry k is the pair skip_geometry[k], skip_primitive[k]; ids as hits carry them, so that outputs of one batch can
+be the input of the next. A primitive with all bits set (RW_INVALID_ID, 2^64 - 1) stands for nothing.
+skip_offsets: count + 1 numbers that never fall: ray i has the entries skip_offsets[i] up to, but without,
+skip_offsets[i + 1]; NULL: entry i alone is for ray i.
 ```
 */
     pub skip_offsets: *const u64,
@@ -704,12 +783,7 @@ impl Default for rw_rays {
         }
     }
 }
-/**
-```text
-Where the answers to many rays go, in the order of the rays. t, u, v and normal are rounded to the output's type
-from the same float64 answer that rw_hit holds.
-```
-*/
+/// Where the answers to many rays go, in the order of the rays: those of rw_hit, rounded to the output's type.
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct rw_hits {
@@ -720,7 +794,7 @@ pub struct rw_hits {
     pub t: rw_output,
     /// 2 components, float32 or float64
     pub uv: rw_output,
-    /// 3 components, float32 or float64
+    /// 3 components, float32 or float64: as rw_scene_normal; zero for a miss
     pub normal: rw_output,
     /// uint32 or uint64 (a missing id is then 2^64 - 1)
     pub instance: rw_output,
@@ -785,7 +859,28 @@ impl Default for rw_hits {
         }
     }
 }
-/// How to run a batch.
+/**
+```text
+A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It is called at
+least once per commit, refit, view and batch, never from two threads at once. Commits, refits and views call it
+from any of the threads at work. Batches call it from the thread that asked, about every ten milliseconds; with a
+parallel_for from any of the host's threads at work.
+```
+*/
+pub type rw_progress = ::std::option::Option<
+    unsafe extern "C" fn(
+        user: *mut ::std::os::raw::c_void,
+        fraction: f64,
+        stage: *const ::std::os::raw::c_char,
+    ) -> i32,
+>;
+/**
+```text
+How to run a batch. Whether to stop is looked at by every thread at work, every few milliseconds, and more seldom
+only where a single ray takes longer. The batch then returns RW_ERROR_CANCELLED: outputs that were written are
+right, others are as they were, and offsets, needed and invalid_rays are not written.
+```
+*/
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct rw_query_options {
@@ -798,6 +893,18 @@ pub struct rw_query_options {
     pub parallel_user: *mut ::std::os::raw::c_void,
     /// receives how many rays held a NaN; NULL: not wanted
     pub invalid_rays: *mut u64,
+    /// NULL: none
+    pub progress: rw_progress,
+    /// handed to progress
+    pub progress_user: *mut ::std::os::raw::c_void,
+    /**
+```text
+Not 0 asks to stop; NULL: none. Read with relaxed atomic loads, so any thread may set it at any time by an atomic
+store (_Atomic int32_t, std::atomic<int32_t>), and a signal handler by a plain one. Aligned to 4 bytes; only
+read, and no byte of it may belong to an output.
+```
+*/
+    pub cancel: *const i32,
 }
 #[test]
 fn bindgen_test_layout_rw_query_options() {
@@ -805,7 +912,7 @@ fn bindgen_test_layout_rw_query_options() {
     let ptr = UNINIT.as_ptr();
     assert_eq!(
         ::std::mem::size_of::<rw_query_options>(),
-        32usize,
+        56usize,
         "Size of rw_query_options",
     );
     assert_eq!(
@@ -838,6 +945,21 @@ fn bindgen_test_layout_rw_query_options() {
         24usize,
         "Offset of field: rw_query_options::invalid_rays",
     );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).progress) as usize - ptr as usize },
+        32usize,
+        "Offset of field: rw_query_options::progress",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).progress_user) as usize - ptr as usize },
+        40usize,
+        "Offset of field: rw_query_options::progress_user",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).cancel) as usize - ptr as usize },
+        48usize,
+        "Offset of field: rw_query_options::cancel",
+    );
 }
 impl Default for rw_query_options {
     fn default() -> Self {
@@ -848,7 +970,12 @@ impl Default for rw_query_options {
         }
     }
 }
-/// Geometry with the structure chosen for it. Fill it, say what is expected of it, commit it; from then on it never changes.
+/**
+```text
+Geometry with the structure chosen for it. Fill it, say what is expected of it, commit it; from then on it never
+changes. A view of a scene (rw_scene_view) is a scene as well.
+```
+*/
 #[repr(C)]
 #[derive(Debug)]
 pub struct rw_scene {
@@ -865,8 +992,8 @@ pub struct rw_expected_rays {
     pub count: u64,
     /**
 ```text
-some of the caller's rays, for RW_EFFORT_PROBE and RW_EFFORT_MEASURE and RW_RULE_HAPALA;
-copied, at most the first 1,000, without their skip lists; NULL: rays of that kind are made up
+Some of the caller's rays, for RW_EFFORT_PROBE and RW_EFFORT_MEASURE and RW_RULE_HAPALA; copied, at most the
+first 1,000, without their skip lists; NULL: rays of that kind are made up.
 ```
 */
     pub sample: *const rw_rays,
@@ -915,19 +1042,6 @@ impl Default for rw_expected_rays {
         }
     }
 }
-/**
-```text
-A progress callback: user as given, fraction from 0 to 1, stage a constant text. Not 0 asks to stop. It may be called from
-any of the threads at work, never from two at once; at least once per commit, refit and view.
-```
-*/
-pub type rw_progress = ::std::option::Option<
-    unsafe extern "C" fn(
-        user: *mut ::std::os::raw::c_void,
-        fraction: f64,
-        stage: *const ::std::os::raw::c_char,
-    ) -> i32,
->;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct rw_commit_options {
@@ -1016,7 +1130,7 @@ pub struct rw_scene_statistics {
     pub build_ns: f64,
     /// memory of the structure
     pub structure_bytes: u64,
-    /// memory of copied meshes
+    /// memory of copied meshes, which a view has in common with its scene
     pub geometry_bytes: u64,
     /// answered in batches so far
     pub rays: u64,
@@ -1024,7 +1138,7 @@ pub struct rw_scene_statistics {
     pub invalid_rays: u64,
     /// wall time of those batches
     pub rays_ns: f64,
-    /// how often the structure was refitted since it was built. Since 0.2
+    /// how often the structure was refitted since it was built.
     pub refits: u64,
 }
 #[test]
@@ -1125,7 +1239,12 @@ impl Default for rw_scene_statistics {
         }
     }
 }
-/// Statistics over the t cells of a uniform grid, of which cell i has n_i references: Hapala, Karlik, Havran 2011, eq. 1 to 6.
+/**
+```text
+Statistics over the t cells of a uniform grid, of which cell i has n_i references: Hapala, Karlik, Havran 2011, eq.
+1 to 6.
+```
+*/
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct rw_grid_statistics {
@@ -1340,17 +1459,6 @@ impl Default for rw_candidate {
         }
     }
 }
-/**
-```text
-A scene seen from a point (camera, point light) or along a direction (sun). Rays that do start at the point, or do run along
-the direction, can be answered faster; all others are answered as by the scene. Either way with the same bits.
-```
-*/
-#[repr(C)]
-#[derive(Debug)]
-pub struct rw_view {
-    _unused: [u8; 0],
-}
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct rw_view_options {
@@ -1532,15 +1640,15 @@ extern "C" {
 ```text
 Does: tells the version of the library that was loaded, which may differ from the header's.
 major, minor, patch: each may be NULL (not wanted).
-Returns: RW_OK. Threads: any. Since: 0.1.
+Returns: RW_OK.
 ```
 */
     pub fn rw_version(major: *mut u32, minor: *mut u32, patch: *mut u32) -> i32;
     /**
 ```text
 Does: tells the binary interface of the library that was loaded; compare it with RW_ABI_VERSION after dlopen.
-abi: receives the number; not NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+abi: receives the number.
+Returns: RW_OK.
 ```
 */
     pub fn rw_abi_version(abi: *mut u32) -> i32;
@@ -1549,7 +1657,7 @@ Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 Does: puts a status into words.
 status: any value.
 Returns: a constant English sentence, never NULL; an unknown status has a text as well.
-Owner: the library; valid for ever. Threads: any. Since: 0.1.
+Owner: the library; valid for ever.
 ```
 */
     pub fn rw_status_text(status: i32) -> *const ::std::os::raw::c_char;
@@ -1559,40 +1667,41 @@ Does: tells what went wrong in the calling thread's latest raywise call that did
 naming the argument and the element, e.g. "triangle 17: index 9000 is out of range, the mesh has 507
 vertices".
 Returns: a text, never NULL; empty before the first error. Calls that return RW_OK leave it as it was.
-Owner: the library; valid until the thread's next raywise call that does not return RW_OK. Threads: each has its own. Since: 0.1.
+Owner: the library; valid until the thread's next raywise call that does not return RW_OK. Threads: each has its
+own.
 ```
 */
     pub fn rw_last_error_message() -> *const ::std::os::raw::c_char;
     /**
 ```text
-Does: hands out a profile. With a path: reads that file, anew with each call. With NULL: the first valid one of the file
-named by the environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the user's cache folder
-($XDG_CACHE_HOME or ~/.cache, then raywise/<machine key>.json) and the system's folder
-(/etc/raywise/<machine key>.json). The machine key names the processor, the instruction set that the library uses on it, the
-last cache's size and the number of usable threads; `raywise-calibrate --help` prints these paths.
-These places are looked at once in a process, by the first call that needs a profile and is given none; it is kept, and
-what files and environment say later goes unseen. A profile written since can be loaded by its path.
+Does: hands out a profile. With a path: reads that file, anew with each call. With NULL: the first valid one of the
+file named by the environment variable RAYWISE_CALIBRATION ("builtin" there means the generic constants), the
+user's cache folder ($XDG_CACHE_HOME or ~/.cache, then raywise/<machine key>.json) and the system's folder
+(/etc/raywise/<machine key>.json). The machine key names the processor, the instruction set that the library uses
+on it, the last cache's size and the number of usable threads; `raywise-calibrate --help` prints these paths.
+These places are looked at once in a process, by the first call that needs a profile and is given none; it is kept,
+and what files and environment say later goes unseen. A profile written since can be loaded by its path.
 path: UTF-8, or NULL.
-profile: receives a profile the caller must release; not NULL.
+profile: receives a profile the caller must release.
 Returns: RW_OK when the file was used, or when path is NULL and there was no file at all. An RW_PROFILE_ status
-when a file was passed over (that of the first): *profile is then set all the same, with a path to the generic constants,
-with NULL to the next valid file's or the generic constants. RW_ERROR_INVALID_ARGUMENT and RW_ERROR_OUT_OF_MEMORY set nothing.
-Threads: any. Since: 0.1.
+when a file was passed over (that of the first): *profile is then set all the same, with a path to the generic
+constants, with NULL to the next valid file's or the generic constants. RW_ERROR_INVALID_ARGUMENT and
+RW_ERROR_OUT_OF_MEMORY set nothing.
 ```
 */
     pub fn rw_profile_load(
         path: *const ::std::os::raw::c_char,
         profile: *mut *mut rw_profile,
     ) -> i32;
-    /// Does: adds a reference. profile: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+    /// Does: adds a reference. Returns: RW_OK.
     pub fn rw_profile_retain(profile: *const rw_profile) -> i32;
-    /// Does: gives a reference back; the last one frees. profile: may be NULL. Returns: RW_OK. Threads: any. Since: 0.1.
+    /// Does: gives a reference back; the last one frees. profile: may be NULL. Returns: RW_OK.
     pub fn rw_profile_release(profile: *const rw_profile) -> i32;
     /**
 ```text
 Does: tells where a profile came from.
-profile: not NULL. info: struct_size set; receives the facts. Texts belong to the profile.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+info: struct_size set; receives the facts. Texts belong to the profile.
+Returns: RW_OK.
 ```
 */
     pub fn rw_profile_inspect(
@@ -1605,8 +1714,8 @@ Does: writes the whole profile, every constant with its unit, as text for people
 format: RW_FORMAT_TEXT or RW_FORMAT_JSON.
 buffer: of capacity bytes, or NULL with capacity 0 to ask for the size only.
 needed: receives the bytes it takes, the final zero included; may be NULL.
-Returns: RW_OK; RW_ERROR_CAPACITY when buffer is too small (it then holds the beginning, zero-terminated);
-RW_ERROR_INVALID_ARGUMENT. Asking for the size only is RW_OK. Threads: any. Since: 0.1.
+Returns: RW_OK; RW_ERROR_CAPACITY when buffer is too small (it then holds the beginning, zero-terminated). Asking
+for the size only is RW_OK.
 ```
 */
     pub fn rw_profile_text(
@@ -1618,48 +1727,49 @@ RW_ERROR_INVALID_ARGUMENT. Asking for the size only is RW_OK. Threads: any. Sinc
     ) -> i32;
     /**
 ```text
-Does: reads an OBJ, PLY, OFF or STL file. A face of n corners becomes n - 2 triangles of its corners, faces in the order of the
-file. A convex face becomes the fan about its first corner: (0, 1, 2), (0, 2, 3) and so on. Any other is cut ear by ear, as seen
-in the coordinate plane where its area is largest, on exact signs: the corners are looked at in the order 1, 2 ... n - 1, 0, each
-one is cut off where the triangle with its neighbours holds nothing else of the outline, and then those next to a cut, in the
-order of the cuts. Each triangle has its corners in the order of the face, beginning with the lowest position. The triangles
-cover the inside once and nothing else, also with holes that are joined to the outline by lines there and back, and where the
-outline touches itself; some have no area where corners are in line or repeated. A face whose outline crosses itself, or without
-area, still becomes n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left,
-corners in line with their neighbours are cut off, then any that turns the way the face does, then any.
-Vertices and faces are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any,
-else all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has more.
-path: UTF-8, or whatever bytes the system names the file by; not NULL; the ending tells the format.
-mesh: receives a mesh the caller must release; not NULL.
+Does: reads an OBJ, PLY, OFF or STL file. A face of n corners becomes n - 2 triangles of its corners, faces in the
+order of the file. A convex face becomes the fan about its first corner: (0, 1, 2), (0, 2, 3) and so on. Any other
+is cut ear by ear, as seen in the coordinate plane where its area is largest, on exact signs: the corners are
+looked at in the order 1, 2 ... n - 1, 0, each one is cut off where the triangle with its neighbours holds nothing
+else of the outline, and then those next to a cut, in the order of the cuts. Each triangle has its corners in the
+order of the face, beginning with the lowest position. The triangles cover the inside once and nothing else, also
+with holes that are joined to the outline by lines there and back, and where the outline touches itself; some have
+no area where corners are in line or repeated. A face whose outline crosses itself, or without area, still becomes
+n - 2 triangles of its corners, always the same ones and none beyond its convex hull. Once no ear is left, corners
+in line with their neighbours are cut off, then any that turns the way the face does, then any. Vertices and faces
+are those of the file, in its order. Coordinates are as written: all float64 where float32 would change any, else
+all float32. What is wrong with a file is said with the line (of text) or byte where it is. docs/mesh-files.md has
+more.
+path: UTF-8, or whatever bytes the system names the file by; the ending tells the format.
+mesh: receives a mesh the caller must release.
 Returns: RW_OK, RW_ERROR_FILE_NOT_FOUND, RW_ERROR_FILE_UNREADABLE, RW_ERROR_FILE_FORMAT, RW_ERROR_NO_FACES,
-RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY,
-RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1.
+RW_ERROR_BAD_POLYGON, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_NOT_FINITE, RW_ERROR_TOO_MANY.
 ```
 */
     pub fn rw_mesh_load(
         path: *const ::std::os::raw::c_char,
         mesh: *mut *mut rw_mesh,
     ) -> i32;
-    /// Does: adds a reference. mesh: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+    /// Does: adds a reference. Returns: RW_OK.
     pub fn rw_mesh_retain(mesh: *const rw_mesh) -> i32;
-    /// Does: gives a reference back; the last one frees. mesh: may be NULL. Returns: RW_OK. Threads: any. Since: 0.1.
+    /// Does: gives a reference back; the last one frees. mesh: may be NULL. Returns: RW_OK.
     pub fn rw_mesh_release(mesh: *const rw_mesh) -> i32;
     /**
 ```text
 Does: describes the arrays of a mesh, ready for rw_scene_add_triangles.
-mesh: not NULL. triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
+triangles: struct_size set; receives pointers into the mesh. vertices.type is RW_FLOAT32 or RW_FLOAT64, which
 depends on the file (see rw_mesh_load); indices.type is RW_UINT32.
-Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED) needs
-the mesh to be kept. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Owner: the arrays belong to the mesh and live as long as it does; a scene that shares them (RW_TRIANGLES_SHARED)
+needs the mesh to be kept. Returns: RW_OK.
 ```
 */
     pub fn rw_mesh_triangles(mesh: *const rw_mesh, triangles: *mut rw_triangles) -> i32;
     /**
 ```text
 Does: tells which face of the file each triangle was cut from.
-face_of_triangle: receives a pointer to one uint32 per triangle, owned by the mesh; not NULL.
+face_of_triangle: receives a pointer to one uint32 per triangle, owned by the mesh.
 face_count: receives the faces in the file; may be NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK.
 ```
 */
     pub fn rw_mesh_faces(
@@ -1670,7 +1780,7 @@ Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
     /**
 ```text
 Does: counts the structures the library can choose from.
-count: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK.
 ```
 */
     pub fn rw_structure_count(count: *mut u32) -> i32;
@@ -1678,8 +1788,8 @@ count: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since:
 ```text
 Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality". Names stay,
 and so does their order; more may follow.
-index: below the count. name: receives a constant text; not NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+index: below the count. name: receives a constant text.
+Returns: RW_OK.
 ```
 */
     pub fn rw_structure_name(
@@ -1689,25 +1799,25 @@ Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
     /**
 ```text
 Does: makes an empty scene.
-profile: the constants to decide with; retained by the scene. NULL: the one that rw_profile_load(NULL) gives, looked up once
-in a process.
-scene: receives a scene the caller must release; not NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.1.
+profile: the constants to decide with; retained by the scene. NULL: the one that rw_profile_load(NULL) gives,
+looked up once in a process.
+scene: receives a scene the caller must release.
+Returns: RW_OK.
 ```
 */
     pub fn rw_scene_create(profile: *const rw_profile, scene: *mut *mut rw_scene) -> i32;
-    /// Does: adds a reference. scene: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+    /// Does: adds a reference. Returns: RW_OK.
     pub fn rw_scene_retain(scene: *const rw_scene) -> i32;
-    /// Does: gives a reference back; the last one frees. scene: may be NULL. Returns: RW_OK. Threads: any. Since: 0.1.
+    /// Does: gives a reference back; the last one frees. scene: may be NULL. Returns: RW_OK.
     pub fn rw_scene_release(scene: *const rw_scene) -> i32;
     /**
 ```text
 Does: adds a mesh. Every vertex and index is checked here.
-triangles: struct_size set; not NULL. Copied unless RW_TRIANGLES_SHARED.
+triangles: struct_size set. Copied unless RW_TRIANGLES_SHARED.
 geometry: receives the mesh's id: 0, 1, 2 ... in the order of adding; may be NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE,
-RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED, RW_ERROR_OUT_OF_MEMORY.
-On an error the scene is as it was. Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE,
+RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY, RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED.
+On an error the scene is as it was.
 ```
 */
     pub fn rw_scene_add_triangles(
@@ -1718,9 +1828,9 @@ On an error the scene is as it was. Threads: alone with the scene. Since: 0.1.
     /**
 ```text
 Does: says how many rays of which kind are coming. A scene that is not told reckons with RW_RAYS_UNKNOWN.
-expected: struct_size set; not NULL.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
-RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED (the sample), RW_ERROR_OUT_OF_MEMORY. Threads: alone with the scene. Since: 0.1.
+expected: struct_size set.
+Returns: RW_OK, RW_ERROR_RAY_COUNT, RW_ERROR_TOO_MANY (a sample above RW_RAYS_LIMIT),
+RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED (the sample).
 ```
 */
     pub fn rw_scene_set_expected_rays(
@@ -1731,17 +1841,16 @@ RW_ERROR_ALREADY_COMMITTED, RW_ERROR_RESERVED (the sample), RW_ERROR_OUT_OF_MEMO
 ```text
 Does: bounds the memory that the structure may take, the caller's own arrays not counted.
 bytes: 0: no limit.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_ALREADY_COMMITTED. Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_ALREADY_COMMITTED.
 ```
 */
     pub fn rw_scene_set_memory_limit(scene: *mut rw_scene, bytes: u64) -> i32;
     /**
 ```text
-Does: forces a structure by name. Every structure can be forced on every scene; projected_bvh, which is meant for views,
-then works as a hierarchy without projections.
+Does: forces a structure by name. Every structure can be forced on every scene; projected_bvh, which is meant for
+views, then works as a hierarchy without projections.
 name: one of rw_structure_name; NULL: the library chooses again.
-Returns: RW_OK, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_ALREADY_COMMITTED.
-Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_ALREADY_COMMITTED.
 ```
 */
     pub fn rw_scene_set_structure(
@@ -1753,7 +1862,7 @@ Threads: alone with the scene. Since: 0.1.
 Does: sets effort and rule of the choice.
 effort: RW_EFFORT_. rule: RW_RULE_.
 time_limit_seconds: RW_EFFORT_MEASURE starts no further build after so long; 0: no limit.
-Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_ALREADY_COMMITTED. Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_ALREADY_COMMITTED.
 ```
 */
     pub fn rw_scene_set_effort(
@@ -1766,9 +1875,8 @@ Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT, RW_ERROR_ALREADY_COMMITTED. Threads: 
 ```text
 Does: chooses a structure and builds it. An empty scene is legal: every ray misses.
 options: struct_size set; NULL: the defaults.
-Returns: RW_OK, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_ALREADY_COMMITTED,
-RW_ERROR_HOST_PARALLEL, RW_ERROR_INVALID_ARGUMENT. On an error the scene is as it was and may be committed again.
-Threads: alone with the scene. Since: 0.1.
+Returns: RW_OK, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_ALREADY_COMMITTED,
+RW_ERROR_HOST_PARALLEL. On an error the scene is as it was and may be committed again.
 ```
 */
     pub fn rw_scene_commit(
@@ -1777,22 +1885,23 @@ Threads: alone with the scene. Since: 0.1.
     ) -> i32;
     /**
 ```text
-Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The structure is the
-old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of building; else the same structure
-is built anew. It is chosen anew only when the number of triangles that can be hit has changed more than twofold or it would be
-over the memory limit. Expectations, effort, memory limit, profile and a forced structure are those of the old scene. Answers
-are those of any scene with these meshes.
-scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards.
-meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as before, and
-vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh keeps the indices it has in
-the old scene (none, if it has none), and then needs as many vertices as there; indices that the old scene reads in place
-(RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's vertices are not read: they may be gone, or
-moved in place, as long as nobody asks the old scene any more.
+Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The
+structure is the old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of
+building; else the same structure is built anew. It is chosen anew only when the number of triangles that can be
+hit has changed more than twofold or it would be over the memory limit. Expectations, effort, memory limit, profile
+and a forced structure are those of the old scene. Answers are those of any scene with these meshes.
+scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards. Of a view, the scene it
+is of is refitted as well: *refitted is then the same view of that, with what was said for the view.
+meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as
+before, and vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh
+keeps the indices it has in the old scene (none, if it has none), and then needs as many vertices as there; indices
+that the old scene reads in place (RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's
+vertices are not read: they may be gone, or moved in place, as long as nobody asks the old scene any more.
 mesh_count: as many as the scene has. options: struct_size set; NULL: the defaults.
-refitted: receives a scene the caller must release; not NULL.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_OUT_OF_MEMORY,
-RW_ERROR_HOST_PARALLEL, RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE, RW_ERROR_TOO_MANY,
-RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Threads: any. Since: 0.2.
+refitted: receives a scene the caller must release.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_HOST_PARALLEL,
+RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE,
+RW_ERROR_TOO_MANY, RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ).
 ```
 */
     pub fn rw_scene_refit(
@@ -1805,8 +1914,8 @@ RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). Thr
     /**
 ```text
 Does: tells the box around all triangles that can be hit.
-lower, upper: 3 values each; not NULL. An empty scene has lower = INFINITY and upper = -INFINITY.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+lower, upper: 3 values each. An empty scene has lower = INFINITY and upper = -INFINITY.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_SHARED_MEMORY.
 ```
 */
     pub fn rw_scene_bounds(
@@ -1817,8 +1926,8 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID
     /**
 ```text
 Does: tells what is in a scene and what it has cost.
-statistics: struct_size set; not NULL. Texts are constants.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+statistics: struct_size set. Texts are constants.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED.
 ```
 */
     pub fn rw_scene_get_statistics(
@@ -1828,9 +1937,8 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any.
     /**
 ```text
 Does: tells the statistics of the grid in use.
-statistics: struct_size set; not NULL.
-Returns: RW_OK, RW_ERROR_WRONG_STRUCTURE when the structure is not uniform_grid, RW_ERROR_NOT_COMMITTED,
-RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+statistics: struct_size set.
+Returns: RW_OK, RW_ERROR_WRONG_STRUCTURE when the structure is not uniform_grid, RW_ERROR_NOT_COMMITTED.
 ```
 */
     pub fn rw_scene_get_grid_statistics(
@@ -1840,95 +1948,104 @@ RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
     /**
 ```text
 Does: finds the closest hit of one ray.
-ray: not NULL. hit: receives the answer, a miss included; not NULL.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+options: struct_size set; may be NULL. hit: receives the answer, a miss included.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INDEX_OUT_OF_RANGE (an id to skip that is not there).
 ```
 */
     pub fn rw_scene_intersect(
         scene: *const rw_scene,
         ray: *const rw_ray,
+        options: *const rw_ray_options,
         hit: *mut rw_hit,
     ) -> i32;
     /**
 ```text
 Does: tells whether a ray hits anything.
-ray: not NULL. occluded: receives 1 or 0; not NULL.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+options: as rw_scene_intersect. occluded: receives 1 or 0.
+Returns: as rw_scene_intersect.
 ```
 */
     pub fn rw_scene_occluded(
         scene: *const rw_scene,
         ray: *const rw_ray,
+        options: *const rw_ray_options,
         occluded: *mut i32,
     ) -> i32;
     /**
 ```text
-Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive); a surface crossed at an edge or a
-corner counts once (see "All hits" at the top).
-hits: room for capacity answers, or NULL with capacity 0 to ask for the number only.
-needed: receives the number of hits there are; not NULL.
-Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (the closest ones are then written);
-RW_ERROR_NOT_COMMITTED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_INVALID_ARGUMENT. Asking for the number only is RW_OK.
-Threads: any. Since: 0.1.
+Does: finds every hit of one ray, sorted by t, then by (instance, geometry, primitive); a surface crossed at an
+edge or a corner counts once (see "All hits" at the top).
+options: as rw_scene_intersect. hits: room for capacity answers, or NULL with capacity 0 to ask for the number only.
+needed: receives the number of hits there are.
+Returns: as rw_scene_intersect, and RW_ERROR_CAPACITY when there are more than capacity (the closest ones are then
+written). Asking for the number only is RW_OK.
 ```
 */
     pub fn rw_scene_intersect_all(
         scene: *const rw_scene,
         ray: *const rw_ray,
+        options: *const rw_ray_options,
         hits: *mut rw_hit,
         capacity: u64,
         needed: *mut u64,
     ) -> i32;
     /**
 ```text
-Does: as rw_scene_intersect, for a ray that skips triangles.
-options: struct_size set; NULL: the defaults.
-Returns: also RW_ERROR_INDEX_OUT_OF_RANGE for an id that is not there, and RW_ERROR_OUT_OF_MEMORY. Threads: any. Since: 0.2.
+Does: as the three above, for a float32 ray: their answers, rounded (see "float32" at the top). Hits are sorted by
+what t is before it is rounded.
 ```
 */
-    pub fn rw_scene_intersect_with(
+    pub fn rw_scene_intersect_f32(
         scene: *const rw_scene,
-        ray: *const rw_ray,
+        ray: *const rw_ray_f32,
         options: *const rw_ray_options,
-        hit: *mut rw_hit,
+        hit: *mut rw_hit_f32,
     ) -> i32;
-    /**
-```text
-Does: as rw_scene_occluded, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with.
-Threads: any. Since: 0.2.
-```
-*/
-    pub fn rw_scene_occluded_with(
+    pub fn rw_scene_occluded_f32(
         scene: *const rw_scene,
-        ray: *const rw_ray,
+        ray: *const rw_ray_f32,
         options: *const rw_ray_options,
         occluded: *mut i32,
     ) -> i32;
-    /**
-```text
-Does: as rw_scene_intersect_all, for a ray that skips triangles. options, Returns: as rw_scene_intersect_with, and
-RW_ERROR_CAPACITY. Threads: any. Since: 0.2.
-```
-*/
-    pub fn rw_scene_intersect_all_with(
+    pub fn rw_scene_intersect_all_f32(
         scene: *const rw_scene,
-        ray: *const rw_ray,
+        ray: *const rw_ray_f32,
         options: *const rw_ray_options,
-        hits: *mut rw_hit,
+        hits: *mut rw_hit_f32,
         capacity: u64,
         needed: *mut u64,
     ) -> i32;
     /**
 ```text
-Does: finds the closest hit of many rays; the same bits as rw_scene_intersect_with for each.
-rays: struct_size set; not NULL. hits: struct_size set; not NULL; the outputs it names are written to and may share memory
-neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is not checked.
+Does: tells the normal of the triangle that was hit: (v1 - v0) x (v2 - v0), the right-hand rule, of unit length.
+hit: of which only the ids are looked at. normal: receives three numbers.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INDEX_OUT_OF_RANGE (an id that is not there),
+RW_ERROR_INVALID_ARGUMENT also for a miss, and for a triangle that cannot be hit: one without area, or an invalid
+one.
+```
+*/
+    pub fn rw_scene_normal(
+        scene: *const rw_scene,
+        hit: *const rw_hit,
+        normal: *mut f64,
+    ) -> i32;
+    pub fn rw_scene_normal_f32(
+        scene: *const rw_scene,
+        hit: *const rw_hit_f32,
+        normal: *mut f32,
+    ) -> i32;
+    /**
+```text
+Does: finds the closest hit of many rays; the same bits as rw_scene_intersect for each.
+rays: struct_size set. hits: struct_size set; the outputs it names are written to and may share memory
+neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is
+not checked.
 options: struct_size set; NULL: the defaults.
 Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
 80 MiB in all, while the call lasts.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then partly written),
-RW_ERROR_INDEX_OUT_OF_RANGE (a skip list), RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP,
-RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then
+partly written), RW_ERROR_CANCELLED (see rw_query_options), RW_ERROR_INDEX_OUT_OF_RANGE (a skip list),
+RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP, RW_ERROR_SHARED_MEMORY.
 ```
 */
     pub fn rw_scene_intersect_batch(
@@ -1941,7 +2058,7 @@ RW_ERROR_SHARED_MEMORY, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
 ```text
 Does: tells for many rays whether they hit anything.
 occluded: uint8, uint32 or uint64, 1 or 0 for each ray; data not NULL.
-Otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1.
+Otherwise as rw_scene_intersect_batch.
 ```
 */
     pub fn rw_scene_occluded_batch(
@@ -1952,13 +2069,14 @@ Otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1.
     ) -> i32;
     /**
 ```text
-Does: finds every hit of many rays. The hits of ray i are the elements offsets[i] up to offsets[i + 1] of the outputs,
-sorted as in rw_scene_intersect_all.
-offsets: room for rays->count + 1 numbers; always written in full; not NULL.
+Does: finds every hit of many rays. The hits of ray i are the elements offsets[i] up to offsets[i + 1] of the
+outputs, sorted as in rw_scene_intersect_all.
+offsets: room for rays->count + 1 numbers; written in full, RW_ERROR_CAPACITY or not.
 hits: outputs with room for capacity answers; NULL with capacity 0 to ask for the offsets only.
-needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may share no memory.
+needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may
+share no memory.
 Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
-otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1.
+otherwise as rw_scene_intersect_batch.
 ```
 */
     pub fn rw_scene_intersect_all_batch(
@@ -1973,15 +2091,15 @@ otherwise as rw_scene_intersect_batch. Threads: any. Since: 0.1.
     /**
 ```text
 Does: counts the candidates of the decision; one per structure.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED.
 ```
 */
     pub fn rw_scene_candidate_count(scene: *const rw_scene, count: *mut u32) -> i32;
     /**
 ```text
 Does: tells one candidate, in the order of rw_structure_name.
-index: below the count. candidate: struct_size set; not NULL.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+index: below the count. candidate: struct_size set.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED.
 ```
 */
     pub fn rw_scene_get_candidate(
@@ -1991,9 +2109,9 @@ Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_INVALID_ARGUMENT. Threads: any.
     ) -> i32;
     /**
 ```text
-Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build time, ns per
-ray and bytes.
-Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: any. Since: 0.1.
+Does: explains the choice: scene, type of its vertices, profile, each candidate with predicted and actual build
+time, ns per ray and bytes.
+Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED.
 ```
 */
     pub fn rw_scene_explain(
@@ -2005,117 +2123,33 @@ Arguments and results as rw_profile_text, and RW_ERROR_NOT_COMMITTED. Threads: a
     ) -> i32;
     /**
 ```text
-Does: makes a view of a committed scene, and builds a structure for it when that pays.
-scene: committed; retained by the view. options: struct_size set; not NULL.
-commit: threads, progress and parallel-for of the build; NULL: the defaults.
-view: receives a view the caller must release; not NULL.
-Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_RAY_COUNT, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_NOT_FINITE (origin or
-direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_OUT_OF_MEMORY, RW_ERROR_HOST_PARALLEL, RW_ERROR_RESERVED,
-RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
+Does: makes a scene of a scene's geometry, seen from a point (camera, point light) or along a direction (sun), and
+builds a structure for it when that pays. Rays that do start at the point, or do run along the direction, can be
+answered faster by it; all others are answered as by the scene. Either way with the same bits. It is a committed
+scene in all that can be asked of one; its statistics are its own.
+scene: committed; kept, with the meshes it shares (RW_TRIANGLES_SHARED), for as long as the view lives. Its memory
+limit holds for the view's structure as well. A view of a view is one of the scene that the first is of.
+options: struct_size set. commit: threads, progress and parallel-for of the build; may be NULL.
+view: receives a scene the caller must release.
+Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_RAY_COUNT, RW_ERROR_UNKNOWN_STRUCTURE, RW_ERROR_NOT_FINITE (origin
+or direction), RW_ERROR_MEMORY_LIMIT, RW_ERROR_CANCELLED, RW_ERROR_HOST_PARALLEL, RW_ERROR_RESERVED.
 ```
 */
-    pub fn rw_view_create(
+    pub fn rw_scene_view(
         scene: *const rw_scene,
         options: *const rw_view_options,
         commit: *const rw_commit_options,
-        view: *mut *mut rw_view,
-    ) -> i32;
-    /// Does: adds a reference. view: not NULL. Returns: RW_OK, RW_ERROR_INVALID_ARGUMENT. Threads: any. Since: 0.1.
-    pub fn rw_view_retain(view: *const rw_view) -> i32;
-    /// Does: gives a reference back; the last one frees. view: may be NULL. Returns: RW_OK. Threads: any. Since: 0.1.
-    pub fn rw_view_release(view: *const rw_view) -> i32;
-    /// Does: as rw_scene_intersect. Threads: any. Since: 0.1.
-    pub fn rw_view_intersect(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        hit: *mut rw_hit,
-    ) -> i32;
-    /// Does: as rw_scene_occluded. Threads: any. Since: 0.1.
-    pub fn rw_view_occluded(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        occluded: *mut i32,
-    ) -> i32;
-    /// Does: as rw_scene_intersect_all. Threads: any. Since: 0.1.
-    pub fn rw_view_intersect_all(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        hits: *mut rw_hit,
-        capacity: u64,
-        needed: *mut u64,
-    ) -> i32;
-    /// Does: as rw_scene_intersect_with. Threads: any. Since: 0.2.
-    pub fn rw_view_intersect_with(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        options: *const rw_ray_options,
-        hit: *mut rw_hit,
-    ) -> i32;
-    /// Does: as rw_scene_occluded_with. Threads: any. Since: 0.2.
-    pub fn rw_view_occluded_with(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        options: *const rw_ray_options,
-        occluded: *mut i32,
-    ) -> i32;
-    /// Does: as rw_scene_intersect_all_with. Threads: any. Since: 0.2.
-    pub fn rw_view_intersect_all_with(
-        view: *const rw_view,
-        ray: *const rw_ray,
-        options: *const rw_ray_options,
-        hits: *mut rw_hit,
-        capacity: u64,
-        needed: *mut u64,
-    ) -> i32;
-    /// Does: as rw_scene_intersect_batch. Threads: any. Since: 0.1.
-    pub fn rw_view_intersect_batch(
-        view: *const rw_view,
-        rays: *const rw_rays,
-        hits: *const rw_hits,
-        options: *const rw_query_options,
-    ) -> i32;
-    /// Does: as rw_scene_occluded_batch. Threads: any. Since: 0.1.
-    pub fn rw_view_occluded_batch(
-        view: *const rw_view,
-        rays: *const rw_rays,
-        occluded: *const rw_output,
-        options: *const rw_query_options,
-    ) -> i32;
-    /// Does: as rw_scene_intersect_all_batch. Threads: any. Since: 0.1.
-    pub fn rw_view_intersect_all_batch(
-        view: *const rw_view,
-        rays: *const rw_rays,
-        offsets: *mut u64,
-        hits: *const rw_hits,
-        capacity: u64,
-        needed: *mut u64,
-        options: *const rw_query_options,
-    ) -> i32;
-    /// Does: counts the candidates of the view's decision. As rw_scene_candidate_count. Threads: any. Since: 0.1.
-    pub fn rw_view_candidate_count(view: *const rw_view, count: *mut u32) -> i32;
-    /// Does: tells one candidate of the view's decision. As rw_scene_get_candidate. Threads: any. Since: 0.1.
-    pub fn rw_view_get_candidate(
-        view: *const rw_view,
-        index: u32,
-        candidate: *mut rw_candidate,
-    ) -> i32;
-    /// Does: explains the view's choice. As rw_scene_explain. Threads: any. Since: 0.1.
-    pub fn rw_view_explain(
-        view: *const rw_view,
-        format: i32,
-        buffer: *mut ::std::os::raw::c_char,
-        capacity: u64,
-        needed: *mut u64,
+        view: *mut *mut rw_scene,
     ) -> i32;
     /**
 ```text
-Does: answers a batch against meshes that are used in place and forgotten afterwards. The structure is chosen for exactly
-rays->count rays.
+Does: answers a batch against meshes that are used in place and forgotten afterwards. The structure is chosen for
+exactly rays->count rays.
 meshes: mesh_count of them, all with the same struct_size; read in place, during the call only. Hits name mesh i as
 geometry i.
-rays, hits: as rw_scene_intersect_batch. options: struct_size set; NULL: the defaults.
+rays, hits: as rw_scene_intersect_batch. options: struct_size set; NULL: the defaults. Building is watched by the
+progress and cancel of options->query as well.
 Returns: RW_OK, or what rw_scene_add_triangles, rw_scene_commit and rw_scene_intersect_batch may return.
-Threads: any. Since: 0.1.
 ```
 */
     pub fn rw_once_intersect(
@@ -2125,12 +2159,7 @@ Threads: any. Since: 0.1.
         hits: *const rw_hits,
         options: *const rw_once_options,
     ) -> i32;
-    /**
-```text
-Does: as rw_once_intersect, for the question whether anything is hit. occluded: as rw_scene_occluded_batch.
-Threads: any. Since: 0.1.
-```
-*/
+    /// Does: as rw_once_intersect, for the question whether anything is hit. occluded: as rw_scene_occluded_batch.
     pub fn rw_once_occluded(
         meshes: *const rw_triangles,
         mesh_count: u32,

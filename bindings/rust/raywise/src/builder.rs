@@ -17,7 +17,7 @@ use crate::{
 /// then on it is a [`Scene`] and never changes.
 ///
 /// ```
-/// use raywise::{ExpectedRays, Ray, RayQueries, SceneBuilder};
+/// use raywise::{ExpectedRays, Ray, SceneBuilder};
 /// let mut builder = SceneBuilder::new()?;
 /// builder.add_triangles(&[[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0_u32, 1, 2]])?;
 /// builder.expect_rays(&ExpectedRays::new(1000))?;

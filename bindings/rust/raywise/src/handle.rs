@@ -33,7 +33,6 @@ counted! {
     rw_profile, rw_profile_retain, rw_profile_release;
     rw_mesh, rw_mesh_retain, rw_mesh_release;
     rw_scene, rw_scene_retain, rw_scene_release;
-    rw_view, rw_view_retain, rw_view_release;
 }
 
 /// One reference to a handle.

@@ -92,7 +92,6 @@ impl Hits {
             t: self.t[index],
             u,
             v,
-            normal: self.normal[index],
             instance: id(self.instance[index]),
             geometry: id(self.geometry[index])?,
             primitive: self.primitive[index],

@@ -4,7 +4,7 @@
 //! The choice changes how long an answer takes and never a bit of it.
 //!
 //! ```
-//! use raywise::{ExpectedRays, Ray, RayKind, RayQueries, Rays, SceneBuilder};
+//! use raywise::{ExpectedRays, Ray, RayKind, Rays, SceneBuilder};
 //!
 //! // A square of two triangles at z = 0.
 //! let vertices = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -17,7 +17,7 @@
 //!
 //! // One ray.
 //! let hit = scene.intersect(&Ray::new([0.5, 0.25, 2.0], [0.0, 0.0, -1.0]))?.expect("the square is below");
-//! assert_eq!((hit.t, hit.primitive, hit.normal), (2.0, 0, [0.0, 0.0, 1.0]));
+//! assert_eq!((hit.t, hit.primitive, scene.normal(&hit)?), (2.0, 0, [0.0, 0.0, 1.0]));
 //!
 //! // Many rays: one origin for all, one direction each.
 //! let directions = [[0.0_f32, 0.0, -1.0], [0.0, 0.0, 1.0]];
@@ -31,12 +31,13 @@
 //!
 //! # Where things are
 //!
-//! * [`SceneBuilder`] is filled and committed; [`Scene`] is what comes out; [`View`] is a scene seen from one place.
-//! * [`RayQueries`] has the questions: closest hit, any hit, all hits, for one ray and for many.
+//! * [`SceneBuilder`] is filled and committed; [`Scene`] is what comes out and has the questions: closest hit,
+//!   any hit, all hits, for one ray and for many. [`Scene::view`] makes a scene that is seen from one place.
+//! * [`Ray`] and [`Hit`] are of `f64`, or of `f32`: [`Precision`].
 //! * [`RayOptions::skip`] and [`Rays::with_skip`] name triangles that single rays pass through, e.g. those they start
 //!   on: there are no epsilons.
 //! * [`OneShot`] answers one batch and keeps nothing.
-//! * [`Profile`] holds the constants that decide; [`RayQueries::candidates`] and [`RayQueries::explain`] tell how.
+//! * [`Profile`] holds the constants that decide; [`Scene::candidates`] and [`Scene::explain`] tell how.
 //!
 //! Each item names the function of the C library behind it; `raywise.h` holds the contract.
 //!
@@ -62,6 +63,7 @@ mod mesh;
 mod once;
 mod options;
 mod parallel;
+mod precision;
 mod primitive_id;
 mod profile;
 mod questions;
@@ -89,9 +91,9 @@ pub use mesh::Mesh;
 pub use once::OneShot;
 pub use options::{CommitOptions, QueryOptions};
 pub use parallel::ParallelFor;
+pub use precision::Precision;
 pub use primitive_id::PrimitiveId;
 pub use profile::{LoadedProfile, Profile, ProfileInfo, ProfileSource, ProfileWarning};
-pub use questions::RayQueries;
 pub use ray::Ray;
 pub use rays::{PerRayNumber, PerRayVector, Rays};
 pub use scene::{Bounds, Scene};
@@ -100,4 +102,4 @@ pub use statistics::{GridStatistics, SceneStatistics};
 pub use status::Status;
 pub use structures::structures;
 pub use triangles::{SharedTriangles, Triangles};
-pub use view::{View, ViewOptions};
+pub use view::ViewOptions;

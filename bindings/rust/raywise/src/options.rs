@@ -5,6 +5,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::os::raw::{c_char, c_void};
 use std::panic::{self, AssertUnwindSafe};
+use std::sync::atomic::AtomicI32;
 
 use raywise_sys as sys;
 
@@ -17,7 +18,11 @@ use crate::text;
 pub struct QueryOptions<'a> {
     threads: u32,
     parallel_for: Option<ParallelFor<'a>>,
+    progress: Option<QueryProgress<'a>>,
+    cancel: Option<&'a AtomicI32>,
 }
+
+type QueryProgress<'a> = &'a (dyn Fn(f64, &str) -> ControlFlow<()> + Sync);
 
 impl<'a> QueryOptions<'a> {
     /// As many threads as the process may use, the library's own.
@@ -40,18 +45,43 @@ impl<'a> QueryOptions<'a> {
         self
     }
 
+    /// Is told the fraction done, from 0 to 1, and the stage, about every ten milliseconds; `ControlFlow::Break` stops the
+    /// batch, which then fails with [`Status::CANCELLED`](crate::Status::CANCELLED). Answers that were written are right.
+    ///
+    /// It is called from the thread that asked, with [`parallel_for`](QueryOptions::parallel_for) from any of the host's at
+    /// work, and never from two at once. A panic stops the batch as well, and goes on in the caller once the library has
+    /// returned.
+    #[must_use]
+    pub fn progress(mut self, progress: &'a (dyn Fn(f64, &str) -> ControlFlow<()> + Sync)) -> Self {
+        self.progress = Some(progress);
+        self
+    }
+
+    /// Any number but 0 stops the batch, as `progress` does. It may be stored at any time, from any thread.
+    #[must_use]
+    pub fn cancel(mut self, flag: &'a AtomicI32) -> Self {
+        self.cancel = Some(flag);
+        self
+    }
+
     /// Makes a C call with these options, and goes on with a panic of the host's code afterwards.
     /// `invalid_rays` receives the number of rays with a NaN.
     pub(crate) fn with_raw<R>(&self, invalid_rays: &mut u64, call: impl FnOnce(&sys::rw_query_options) -> R) -> R {
         let host = Host::new(self.parallel_for);
         let (parallel_for, parallel_user) = host.raw();
+        let mut listener = self.progress.map(|tell| Listener::new(Box::new(tell)));
+        let (progress, progress_user) = Listener::raw(listener.as_mut());
         let result = call(&sys::rw_query_options {
             struct_size: size_of_struct::<sys::rw_query_options>(),
             threads: self.threads,
             parallel_for,
             parallel_user,
             invalid_rays,
+            progress,
+            progress_user,
+            cancel: self.cancel.map_or(std::ptr::null(), |flag| flag.as_ptr().cast_const()),
         });
+        Listener::resume_panic(listener);
         host.resume_panic();
         result
     }
@@ -62,6 +92,8 @@ impl fmt::Debug for QueryOptions<'_> {
         out.debug_struct("QueryOptions")
             .field("threads", &self.threads)
             .field("parallel_for", &self.parallel_for.map(|_| ".."))
+            .field("progress", &self.progress.map(|_| ".."))
+            .field("cancel", &self.cancel)
             .finish()
     }
 }
@@ -121,11 +153,8 @@ impl<'a> CommitOptions<'a> {
     pub(crate) fn with_raw<R>(self, call: impl FnOnce(&sys::rw_commit_options) -> R) -> R {
         let host = Host::new(self.parallel_for);
         let (parallel_for, parallel_user) = host.raw();
-        let mut listener = self.progress.map(|tell| Listener { tell, panic: None });
-        let (progress, progress_user): (sys::rw_progress, *mut c_void) = match &mut listener {
-            None => (None, std::ptr::null_mut()),
-            Some(listener) => (Some(tell_listener), (listener as *mut Listener<'_>).cast()),
-        };
+        let mut listener = self.progress.map(Listener::new);
+        let (progress, progress_user) = Listener::raw(listener.as_mut());
         let result = call(&sys::rw_commit_options {
             struct_size: size_of_struct::<sys::rw_commit_options>(),
             threads: self.threads,
@@ -134,9 +163,7 @@ impl<'a> CommitOptions<'a> {
             parallel_for,
             parallel_user,
         });
-        if let Some(payload) = listener.and_then(|listener| listener.panic) {
-            panic::resume_unwind(payload);
-        }
+        Listener::resume_panic(listener);
         host.resume_panic();
         result
     }
@@ -156,6 +183,26 @@ impl fmt::Debug for CommitOptions<'_> {
 struct Listener<'a> {
     tell: Progress<'a>,
     panic: Option<Box<dyn Any + Send>>,
+}
+
+impl<'a> Listener<'a> {
+    fn new(tell: Progress<'a>) -> Self {
+        Listener { tell, panic: None }
+    }
+
+    /// In the form C takes it, for as long as the listener lives and is not moved.
+    fn raw(listener: Option<&mut Self>) -> (sys::rw_progress, *mut c_void) {
+        match listener {
+            None => (None, std::ptr::null_mut()),
+            Some(listener) => (Some(tell_listener), (listener as *mut Listener<'_>).cast()),
+        }
+    }
+
+    fn resume_panic(listener: Option<Self>) {
+        if let Some(payload) = listener.and_then(|listener| listener.panic) {
+            panic::resume_unwind(payload);
+        }
+    }
 }
 
 unsafe extern "C" fn tell_listener(user: *mut c_void, fraction: f64, stage: *const c_char) -> i32 {
@@ -232,7 +279,7 @@ mod tests {
         });
         let mut invalid = 0;
         QueryOptions::new().threads(2).with_raw(&mut invalid, |raw| {
-            assert!(raw.parallel_for.is_none());
+            assert!(raw.parallel_for.is_none() && raw.progress.is_none() && raw.cancel.is_null());
             assert_eq!(raw.threads, 2);
         });
     }

@@ -61,15 +61,15 @@ impl PrimitiveId {
     }
 }
 
-impl From<&Hit> for PrimitiveId {
-    fn from(hit: &Hit) -> Self {
+impl<T: Copy> From<&Hit<T>> for PrimitiveId {
+    fn from(hit: &Hit<T>) -> Self {
         let instance = hit.instance.unwrap_or(sys::RW_INVALID_ID);
         PrimitiveId { instance, geometry: hit.geometry, primitive: hit.primitive }
     }
 }
 
-impl From<Hit> for PrimitiveId {
-    fn from(hit: Hit) -> Self {
+impl<T: Copy> From<Hit<T>> for PrimitiveId {
+    fn from(hit: Hit<T>) -> Self {
         PrimitiveId::from(&hit)
     }
 }
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn c_reads_the_ids_where_they_are() {
-        let hit = Hit { t: 1.0, u: 0.0, v: 0.0, normal: [0.0; 3], instance: Some(7), geometry: 8, primitive: 9 };
+        let hit = Hit { t: 1.0, u: 0.0, v: 0.0, instance: Some(7), geometry: 8, primitive: 9 };
         let ids = [PrimitiveId::new(5, 6), hit.into()];
         let raw = PrimitiveId::slice_as_raw(&ids);
         // SAFETY: the slice lives, has two elements, and its type has the layout of the one in C.

@@ -1,44 +1,40 @@
 //! One ray.
 
-use raywise_sys as sys;
+use crate::Precision;
 
-/// One ray (`rw_ray`). `f32` coordinates convert without loss.
+/// One ray (`rw_ray`; `rw_ray_f32` for `Ray<f32>`).
 ///
 /// t is measured in units of the direction's length; a hit counts when `tmin <= t <= tmax`. A ray with a NaN anywhere, a
 /// zero direction, an infinite origin or direction, or `tmin > tmax` misses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
+pub struct Ray<T = f64> {
     /// Where t is 0.
-    pub origin: [f64; 3],
+    pub origin: [T; 3],
     /// Where to; any length but zero.
-    pub direction: [f64; 3],
+    pub direction: [T; 3],
     /// The least t that counts.
-    pub tmin: f64,
+    pub tmin: T,
     /// The greatest t that counts.
-    pub tmax: f64,
+    pub tmax: T,
 }
 
-impl Ray {
+impl<T: Precision> Ray<T> {
     /// A ray that starts at its origin and has no end.
     #[must_use]
-    pub fn new(origin: [f64; 3], direction: [f64; 3]) -> Self {
-        Ray { origin, direction, tmin: 0.0, tmax: f64::INFINITY }
+    pub fn new(origin: [T; 3], direction: [T; 3]) -> Self {
+        Ray { origin, direction, tmin: T::ZERO, tmax: T::INFINITY }
     }
 
     /// The part of a ray from `tmin` to `tmax`.
     #[must_use]
-    pub fn between(self, tmin: f64, tmax: f64) -> Self {
+    pub fn between(self, tmin: T, tmax: T) -> Self {
         Ray { tmin, tmax, ..self }
     }
 
     /// The point at t.
     #[must_use]
-    pub fn at(&self, t: f64) -> [f64; 3] {
+    pub fn at(&self, t: T) -> [T; 3] {
         [0, 1, 2].map(|axis| self.origin[axis] + t * self.direction[axis])
-    }
-
-    pub(crate) fn raw(&self) -> sys::rw_ray {
-        sys::rw_ray { origin: self.origin, tmin: self.tmin, direction: self.direction, tmax: self.tmax }
     }
 }
 

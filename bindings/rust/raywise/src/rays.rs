@@ -137,8 +137,8 @@ impl<'a> Rays<'a> {
     /// Triangles that single rays pass through without a hit: [`SkipLists`], or `&Hits` or `&AllHits` of as many rays.
     ///
     /// ```
-    /// use raywise::{Hits, Rays, RayQueries, Result};
-    /// fn next_hits(scene: &impl RayQueries, rays: &Rays<'_>, previous: &Hits) -> Result<Hits> {
+    /// use raywise::{Hits, Rays, Result, Scene};
+    /// fn next_hits(scene: &Scene, rays: &Rays<'_>, previous: &Hits) -> Result<Hits> {
     ///     scene.intersect_batch(&rays.with_skip(previous)?)
     /// }
     /// ```

@@ -7,17 +7,14 @@ use raywise_sys as sys;
 use crate::builder::KeepAlive;
 use crate::handle::Handle;
 use crate::library::{check, size_of_struct};
-use crate::questions::functions::{Asked, Functions};
-use crate::questions::functions_of;
-use crate::{CommitOptions, GridStatistics, Result, SceneStatistics, Triangles, View, ViewOptions};
+use crate::{CommitOptions, GridStatistics, Result, SceneStatistics, Triangles, ViewOptions};
 
 /// Geometry with the structure chosen for it (`rw_scene`). It never changes, and any number of threads may ask it at the
-/// same time; the questions are in [`RayQueries`](crate::RayQueries). Cloning shares the scene (`rw_scene_retain`).
+/// same time. A [`view`](Scene::view) of a scene is a scene as well. Cloning shares the scene (`rw_scene_retain`).
 ///
 /// ```
 /// fn can_be_shared<T: Send + Sync + Clone>() {}
 /// can_be_shared::<raywise::Scene>();
-/// can_be_shared::<raywise::View>();
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -46,6 +43,10 @@ impl Bounds {
 impl Scene {
     pub(crate) fn new(handle: Handle<sys::rw_scene>, keep: Vec<KeepAlive>) -> Self {
         Scene { handle, _keep: keep.into() }
+    }
+
+    pub(crate) fn as_ptr(&self) -> *const sys::rw_scene {
+        self.handle.as_ptr()
     }
 
     /// Tells the box around all triangles that can be hit. Wraps `rw_scene_bounds`.
@@ -91,7 +92,7 @@ impl Scene {
     /// [`Triangles::moved`] keeps the indices.
     ///
     /// ```
-    /// use raywise::{Ray, RayQueries, SceneBuilder, Triangles};
+    /// use raywise::{Ray, SceneBuilder, Triangles};
     /// let mut builder = SceneBuilder::new()?;
     /// builder.add_triangles(&[[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0_u32, 1, 2]])?;
     /// let scene = builder.commit()?;
@@ -128,16 +129,19 @@ impl Scene {
         Ok(Scene::new(handle, Vec::new()))
     }
 
-    /// Makes a view of the scene, and builds a structure for it when that pays. Wraps `rw_view_create`.
+    /// Makes a scene of the same geometry, seen from a point (camera, point light) or along a direction (sun), and builds a
+    /// structure for it when that pays. Rays that start at the point, or run along the direction, can be answered faster;
+    /// all others are answered as by this scene, and either way with the same bits. A view of a view is one of the scene
+    /// behind it, and refitted it is the same view of that scene, refitted. Wraps `rw_scene_view`.
     ///
     /// # Errors
     /// As [`view_with`](Scene::view_with).
-    pub fn view(&self, options: &ViewOptions) -> Result<View> {
+    pub fn view(&self, options: &ViewOptions) -> Result<Scene> {
         self.view_with(options, CommitOptions::new())
     }
 
     /// [`view`](Scene::view) with a number of threads, progress, cancelling or the host's threads. Wraps
-    /// `rw_view_create`.
+    /// `rw_scene_view`.
     ///
     /// # Errors
     /// [`Status::RAY_COUNT`](crate::Status::RAY_COUNT), `UNKNOWN_STRUCTURE`, `NOT_FINITE` (origin or direction),
@@ -145,37 +149,15 @@ impl Scene {
     ///
     /// # Panics
     /// When the caller's closures panic; the build is stopped first.
-    pub fn view_with(&self, options: &ViewOptions, commit: CommitOptions<'_>) -> Result<View> {
+    pub fn view_with(&self, options: &ViewOptions, commit: CommitOptions<'_>) -> Result<Scene> {
         let handle = options.with_raw(|options| {
             commit.with_raw(|commit| {
                 // SAFETY: the scene lives; the options live through the call.
-                Handle::create(|view| unsafe { sys::rw_view_create(self.as_ptr(), options, commit, view) })
+                Handle::create(|view| unsafe { sys::rw_scene_view(self.as_ptr(), options, commit, view) })
             })
         })?;
-        Ok(View::new(handle, self.clone()))
-    }
-}
-
-impl Asked for Scene {
-    type Raw = sys::rw_scene;
-
-    const FUNCTIONS: Functions<sys::rw_scene> = functions_of!(
-        rw_scene_intersect,
-        rw_scene_occluded,
-        rw_scene_intersect_all,
-        rw_scene_intersect_with,
-        rw_scene_occluded_with,
-        rw_scene_intersect_all_with,
-        rw_scene_intersect_batch,
-        rw_scene_occluded_batch,
-        rw_scene_intersect_all_batch,
-        rw_scene_candidate_count,
-        rw_scene_get_candidate,
-        rw_scene_explain
-    );
-
-    fn as_ptr(&self) -> *const sys::rw_scene {
-        self.handle.as_ptr()
+        // The arrays that the scene reads in place have to outlive the view as well.
+        Ok(Scene { handle, _keep: Arc::clone(&self._keep) })
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{AllHits, Error, Hits, PrimitiveId, Result};
 /// What else there is to say of one ray (`rw_ray_options`).
 ///
 /// ```
-/// use raywise::{PrimitiveId, Ray, RayOptions, RayQueries, SceneBuilder};
+/// use raywise::{PrimitiveId, Ray, RayOptions, SceneBuilder};
 /// # let triangle = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
 /// # let mut builder = SceneBuilder::new()?;
 /// # builder.add_triangles(&[triangle(0.0), triangle(1.0)].concat(), &[[0_u32, 1, 2], [3, 4, 5]])?;

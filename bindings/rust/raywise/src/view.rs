@@ -1,4 +1,4 @@
-//! Views: a scene seen from a point or along a direction.
+//! From where a scene is seen, or along which direction.
 
 use std::ffi::CString;
 use std::ptr;
@@ -6,23 +6,10 @@ use std::ptr;
 use raywise_sys as sys;
 
 use crate::expected::count_or_unknown;
-use crate::handle::Handle;
 use crate::library::size_of_struct;
-use crate::questions::functions::{Asked, Functions};
-use crate::questions::functions_of;
-use crate::{text, RayKind, Result, Scene};
+use crate::{text, RayKind, Result};
 
-/// A scene seen from a point (camera, point light) or along a direction (sun) (`rw_view`). Rays that start at the point,
-/// or run along the direction, can be answered faster; all others are answered as by the scene, and either way with the
-/// same bits. The questions are in [`RayQueries`](crate::RayQueries). Cloning shares the view (`rw_view_retain`).
-#[derive(Clone, Debug)]
-pub struct View {
-    // Released first: the view reads what the scene keeps.
-    handle: Handle<sys::rw_view>,
-    scene: Scene,
-}
-
-/// From where, and for how many rays (`rw_view_options`).
+/// From where, and for how many rays (`rw_view_options`), for [`Scene::view`](crate::Scene::view).
 ///
 /// ```
 /// use raywise::{RayKind, ViewOptions};
@@ -125,41 +112,6 @@ impl ViewOptions {
             }
         }
         call(&raw)
-    }
-}
-
-impl View {
-    pub(crate) fn new(handle: Handle<sys::rw_view>, scene: Scene) -> Self {
-        View { handle, scene }
-    }
-
-    /// The scene that is seen.
-    #[must_use]
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-}
-
-impl Asked for View {
-    type Raw = sys::rw_view;
-
-    const FUNCTIONS: Functions<sys::rw_view> = functions_of!(
-        rw_view_intersect,
-        rw_view_occluded,
-        rw_view_intersect_all,
-        rw_view_intersect_with,
-        rw_view_occluded_with,
-        rw_view_intersect_all_with,
-        rw_view_intersect_batch,
-        rw_view_occluded_batch,
-        rw_view_intersect_all_batch,
-        rw_view_candidate_count,
-        rw_view_get_candidate,
-        rw_view_explain
-    );
-
-    fn as_ptr(&self) -> *const sys::rw_view {
-        self.handle.as_ptr()
     }
 }
 

@@ -7,9 +7,7 @@
 mod common;
 
 use common::{icosphere, square};
-use raywise::{
-    Error, ExpectedRays, OneShot, QueryOptions, RayQueries, Rays, Result, SceneBuilder, Status, Triangles, ViewOptions,
-};
+use raywise::{Error, ExpectedRays, OneShot, QueryOptions, Rays, Result, SceneBuilder, Status, Triangles, ViewOptions};
 
 fn refused(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Status, String) {
     let mut builder = SceneBuilder::new().unwrap();

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{columns, icosphere, scenes, square, Numbers, Result};
-use raywise::{Error, HitsMut, OneShot, Profile, QueryOptions, Ray, RayKind, RayQueries, Rays, Status};
+use raywise::{Error, HitsMut, OneShot, Profile, QueryOptions, Ray, RayKind, Rays, Status};
 
 #[test]
 fn one_shot_answers_as_a_scene_does() -> Result {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use common::{bits, columns, scene_with, Bits, Result, TestMesh};
-use raywise::{Hit, OneShot, PrimitiveId, Ray, RayOptions, RayQueries, Rays, SkipLists};
+use raywise::{Hit, OneShot, PrimitiveId, Ray, RayOptions, Rays, SkipLists};
 use serde_json::Value;
 
 struct Case {
@@ -15,6 +15,7 @@ struct Case {
     skip: Vec<PrimitiveId>,
     /// Closest first.
     hits: Vec<Bits>,
+    normals: Vec<[f64; 3]>,
 }
 
 impl Case {
@@ -58,7 +59,6 @@ fn hit_of(hit: &Value) -> Hit {
         t: from_bits(&hit["t"]),
         u: from_bits(&hit["u"]),
         v: from_bits(&hit["v"]),
-        normal: three(&hit["normal"], from_bits),
         instance: None,
         geometry: id(&hit["geometry"]),
         primitive: id(&hit["primitive"]),
@@ -82,6 +82,7 @@ fn read() -> (BTreeMap<String, TestMesh>, Vec<Case>) {
             .between(number(&case["tmin"]), number(&case["tmax"])),
         skip: list(&case["skip"]).iter().map(|pair| PrimitiveId::new(id(&pair[0]), id(&pair[1]))).collect(),
         hits: list(&case["hits"]).iter().map(|hit| bits(Some(hit_of(hit)))).collect(),
+        normals: list(&case["hits"]).iter().map(|hit| three(&hit["normal"], from_bits)).collect(),
     });
     (meshes.collect(), cases.collect())
 }
@@ -126,6 +127,10 @@ fn every_structure_answers_the_shared_cases_bit_by_bit() -> Result {
                 assert_eq!(bits(scene.intersect_with(&case.ray, &options)?), case.closest(), "{what}");
                 assert_eq!(scene.occluded_with(&case.ray, &options)?, case.is_hit(), "{what}");
                 assert_eq!(as_bits(scene.intersect_all_with(&case.ray, &options)?), case.hits, "{what}");
+                let found = scene.intersect_all_with(&case.ray, &options)?;
+                let normals: Vec<_> = found.iter().map(|hit| scene.normal(hit)).collect::<raywise::Result<_>>()?;
+                assert_eq!(normals, case.normals, "{what}");
+                assert_eq!(hits.normal[index], case.normals.first().copied().unwrap_or_default(), "batch, {what}");
                 if case.skip.is_empty() {
                     assert_eq!(bits(scene.intersect(&case.ray)?), case.closest(), "{what}");
                     assert_eq!(scene.occluded(&case.ray)?, case.is_hit(), "{what}");

@@ -4,7 +4,7 @@ mod common;
 
 use common::{bits, columns, scene_with, scenes, TestMesh};
 use proptest::prelude::*;
-use raywise::{PrimitiveId, Ray, RayOptions, RayQueries, Rays, SceneBuilder, SkipLists, Triangles};
+use raywise::{PrimitiveId, Ray, RayOptions, Rays, SceneBuilder, SkipLists, Triangles};
 
 /// Coordinates from a coarse lattice, where edges, corners, planes and ties are met all the time, or from anywhere.
 fn coordinate() -> impl Strategy<Value = f64> {

@@ -2,8 +2,12 @@
 
 mod common;
 
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::Mutex;
+
 use common::{bits, columns, icosphere, scene_with, scenes, square, Numbers, Result};
-use raywise::{Error, Hits, HitsMut, QueryOptions, Ray, RayQueries, Rays};
+use raywise::{Error, Hit, Hits, HitsMut, QueryOptions, Ray, RayOptions, Rays, Status};
 
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
@@ -254,5 +258,83 @@ fn rays_with_a_nan_are_counted() -> Result {
     assert_eq!(hits.iter().map(|hit| hit.is_some()).collect::<Vec<_>>(), [true, false, true, false]);
     assert_eq!(scene.occluded_batch_into(&rays, &mut [0_u8; 4], &QueryOptions::new())?, 2);
     assert_eq!(scene.intersect_all_batch(&rays)?.hits.invalid_rays, 2);
+    Ok(())
+}
+
+#[test]
+fn one_ray_in_f32_is_answered_as_in_f64_and_rounded() -> Result {
+    let mut numbers = Numbers::new(31);
+    let mesh = numbers.soup(300);
+    for (structure, scene) in scenes(&mesh)? {
+        let mut met = 0;
+        for _ in 0..300 {
+            let wide = numbers.ray();
+            let ray = Ray::new(wide.origin.map(|x| x as f32), wide.direction.map(|x| x as f32));
+            let wide = Ray::new(ray.origin.map(f64::from), ray.direction.map(f64::from));
+            let rounded = |hit: Hit| Hit {
+                t: hit.t as f32,
+                u: hit.u as f32,
+                v: hit.v as f32,
+                instance: hit.instance,
+                geometry: hit.geometry,
+                primitive: hit.primitive,
+            };
+            let (hit, right) = (scene.intersect(&ray)?, scene.intersect(&wide)?);
+            assert_eq!(hit, right.map(rounded), "{structure} {ray:?}");
+            assert_eq!(scene.occluded(&ray)?, hit.is_some(), "{structure} {ray:?}");
+            let all: Vec<Hit<f32>> = scene.intersect_all(&wide)?.into_iter().map(rounded).collect();
+            assert_eq!(scene.intersect_all(&ray)?, all, "{structure} {ray:?}");
+            if let (Some(hit), Some(right)) = (hit, right) {
+                met += 1;
+                assert_eq!(scene.normal(&hit)?, scene.normal(&right)?.map(|x| x as f32));
+                let skip = [hit.into()];
+                let behind = scene.intersect_with(&ray, &RayOptions::new().skip(&skip))?;
+                assert_eq!(behind.map(|hit| hit.primitive), all.get(1).map(|hit| hit.primitive));
+            }
+        }
+        assert!(met > 20, "{structure}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_normal_of_a_triangle_that_is_not_there_is_an_error() -> Result {
+    let (_, scene) = scenes(&icosphere(1))?.remove(0);
+    let hit = Hit { t: 1.0, u: 0.0, v: 0.0, instance: None, geometry: 0, primitive: 99_999 };
+    assert_eq!(scene.normal(&hit).unwrap_err().status(), Some(Status::INDEX_OUT_OF_RANGE));
+    Ok(())
+}
+
+#[test]
+fn batches_are_watched_and_stopped() -> Result {
+    let mut numbers = Numbers::new(32);
+    let rays: Vec<Ray> = (0..5000).map(|_| numbers.ray()).collect();
+    let (origins, directions) = columns(&rays);
+    let batch = Rays::new(&origins, &directions)?;
+    for (structure, scene) in scenes(&icosphere(3))? {
+        let right = scene.intersect_batch(&batch)?;
+        let told = Mutex::new(Vec::new());
+        let go_on = |fraction: f64, stage: &str| {
+            assert!(!stage.is_empty());
+            told.lock().unwrap().push(fraction);
+            ControlFlow::Continue(())
+        };
+        let flag = AtomicI32::new(0);
+        let options = QueryOptions::new().progress(&go_on).cancel(&flag);
+        assert_eq!(scene.intersect_batch_with(&batch, &options)?, right, "{structure}");
+        assert_eq!(told.lock().unwrap().last(), Some(&1.0), "{structure}");
+
+        flag.store(1, Ordering::Relaxed);
+        let mut t = vec![-7.0_f64; rays.len()];
+        let error = scene.intersect_batch_into(&batch, HitsMut::new().t(&mut t), &options).unwrap_err();
+        assert_eq!(error.status(), Some(Status::CANCELLED), "{structure}");
+        assert!(t.iter().all(|t| *t == -7.0), "{structure}: nothing was answered");
+
+        let stop = |_: f64, _: &str| ControlFlow::Break(());
+        let error = scene.occluded_batch_with(&batch, &QueryOptions::new().progress(&stop)).unwrap_err();
+        assert_eq!(error.status(), Some(Status::CANCELLED), "{structure}");
+        let error = scene.intersect_all_batch_with(&batch, &QueryOptions::new().progress(&stop)).unwrap_err();
+        assert_eq!(error.status(), Some(Status::CANCELLED), "{structure}");
+    }
     Ok(())
 }

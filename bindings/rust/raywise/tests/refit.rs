@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use common::{icosphere, square, Result, TestMesh};
-use raywise::{CommitOptions, Ray, RayQueries, Scene, SceneBuilder, SharedTriangles, Status, Triangles};
+use raywise::{CommitOptions, Ray, Scene, SceneBuilder, SharedTriangles, Status, Triangles};
 
 fn scene_of(mesh: &TestMesh, structure: &str) -> Result<Scene> {
     let mut builder = SceneBuilder::new()?;

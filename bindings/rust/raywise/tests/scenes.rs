@@ -10,8 +10,8 @@ use std::time::Duration;
 
 use common::{icosphere, square, Result};
 use raywise::{
-    CommitOptions, Effort, ExpectedRays, Mesh, Profile, Ray, RayKind, RayQueries, Rays, Rule, SceneBuilder,
-    SharedTriangles, Status, Triangles, Vectors,
+    CommitOptions, Effort, ExpectedRays, Mesh, Profile, Ray, RayKind, Rays, Rule, SceneBuilder, SharedTriangles,
+    Status, Triangles, Vectors,
 };
 
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
@@ -20,7 +20,7 @@ fn assert_square_is_hit(builder: SceneBuilder) -> Result {
     let scene = builder.commit()?;
     for (x, y, primitive) in [(0.75, 0.25, 0), (0.25, 0.75, 1)] {
         let hit = scene.intersect(&Ray::new([x, y, 2.0], DOWN))?.expect("the square lies below");
-        assert_eq!((hit.t, hit.normal, hit.geometry, hit.primitive), (2.0, [0.0, 0.0, 1.0], 0, primitive));
+        assert_eq!((hit.t, scene.normal(&hit)?, hit.geometry, hit.primitive), (2.0, [0.0, 0.0, 1.0], 0, primitive));
     }
     assert_eq!(scene.intersect(&Ray::new([1.5, 0.5, 2.0], DOWN))?, None);
     Ok(())

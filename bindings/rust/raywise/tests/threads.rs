@@ -7,8 +7,8 @@ use std::panic::{catch_unwind, AssertUnwindSafe};
 use common::{bits, columns, icosphere, scene_with, scenes, Numbers, Result};
 use rayon::prelude::*;
 use raywise::{
-    CommitOptions, Error, Hits, HitsMut, Mesh, Profile, QueryOptions, Ray, RayQueries, Rays, Scene, SceneBuilder,
-    SharedTriangles, Triangles, View, ViewOptions,
+    CommitOptions, Error, Hits, HitsMut, Mesh, Profile, QueryOptions, Ray, Rays, Scene, SceneBuilder, SharedTriangles,
+    Triangles, ViewOptions,
 };
 
 #[allow(dead_code)]
@@ -17,7 +17,6 @@ fn what_may_cross_threads() {
     fn shared<T: Send + Sync>() {}
     fn cloned<T: Send + Sync + Clone>() {}
     cloned::<Scene>();
-    cloned::<View>();
     cloned::<Profile>();
     cloned::<Mesh>();
     cloned::<SharedTriangles>();

@@ -5,7 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{bits, columns, icosphere, scene_with, Numbers, Result};
-use raywise::{CommitOptions, Ray, RayKind, RayQueries, Rays, Status, View, ViewOptions};
+use raywise::{CommitOptions, Ray, RayKind, Rays, Scene, Status, ViewOptions};
 
 const EYE: [f64; 3] = [0.3, -0.2, 3.0];
 
@@ -22,9 +22,8 @@ fn rays() -> Vec<Ray> {
     rays
 }
 
-fn assert_same_answers(view: &View, name: &str) -> Result {
+fn assert_same_answers(view: &Scene, scene: &Scene, name: &str) -> Result {
     let rays = rays();
-    let scene = view.scene();
     for ray in &rays {
         assert_eq!(bits(view.intersect(ray)?), bits(scene.intersect(ray)?), "{name} {ray:?}");
         assert_eq!(view.occluded(ray)?, scene.occluded(ray)?, "{name} {ray:?}");
@@ -54,7 +53,7 @@ fn a_view_answers_every_ray_as_its_scene_does() -> Result {
                     Some(structure) => options.structure(structure),
                     None => options,
                 };
-                assert_same_answers(&scene.view(&options)?, &format!("{name} {structure:?}"))?;
+                assert_same_answers(&scene.view(&options)?, &scene, &format!("{name} {structure:?}"))?;
             }
         }
     }
@@ -68,7 +67,6 @@ fn a_view_keeps_its_scene() -> Result {
         scene.view(&ViewOptions::from_point(EYE))?
     };
     assert!(view.occluded(&Ray::new(EYE, common::minus([0.0; 3], EYE)))?);
-    assert_eq!(view.scene().statistics()?.structure, "kd_tree");
     Ok(())
 }
 
@@ -94,4 +92,30 @@ fn a_view_can_be_cancelled() -> Result {
     assert_eq!(error.status(), Some(Status::CANCELLED));
     assert!(scene.view_with(&options, CommitOptions::new().threads(1)).is_ok());
     Ok(())
+}
+
+#[test]
+fn a_view_is_a_scene_with_facts_of_its_own_and_views_of_its_own() -> Result {
+    let scene = scene_with("bvh", &icosphere(3))?;
+    let view = scene.view(&ViewOptions::from_point(EYE).structure("projected_bvh"))?;
+    assert_eq!((view.statistics()?.structure, scene.statistics()?.structure), ("projected_bvh", "bvh"));
+    assert_eq!(view.bounds()?, scene.bounds()?);
+    let (origins, directions) = columns(&rays());
+    view.intersect_batch(&Rays::new(&origins, &directions)?)?;
+    assert_eq!((view.statistics()?.rays, scene.statistics()?.rays), (origins.len() as u64, 0));
+
+    let again = view.view(&ViewOptions::along([0.0, 0.0, -1.0]).structure("projected_bvh"))?;
+    assert_same_answers(&again, &scene, "a view of a view")
+}
+
+#[test]
+fn a_refitted_view_is_a_view_of_the_refitted_scene() -> Result {
+    let mesh = icosphere(2);
+    let scene = scene_with("bvh", &mesh)?;
+    let view = scene.view(&ViewOptions::from_point(EYE).structure("projected_bvh"))?;
+    let mut moved = mesh;
+    moved.vertices.iter_mut().for_each(|vertex| vertex[2] += 0.25);
+    let refitted = view.refit(&[moved.triangles()])?;
+    assert_eq!(refitted.statistics()?.structure, "projected_bvh");
+    assert_same_answers(&refitted, &scene_with("linear_scan", &moved)?, "refitted")
 }

@@ -1,4 +1,4 @@
-use raywise::{CommitOptions, RayQueries, SceneBuilder};
+use raywise::{CommitOptions, SceneBuilder};
 
 use crate::{Ray, Scene, Subject};
 

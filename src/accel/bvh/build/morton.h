@@ -1,0 +1,65 @@
+// The order of a hierarchy's references along a space-filling curve.
+#pragma once
+
+#include "accel/bvh/build/bounds.h"
+#include "base/page_array.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace raywise {
+
+struct MortonKey {
+    std::uint32_t code;
+    std::uint32_t index; // of the item
+};
+
+// A grid of 2^10 cells along each axis over the bounds of what it has to order.
+class MortonGrid {
+public:
+    static constexpr int bits_per_axis = 10;
+
+    explicit MortonGrid(const Bounds& bounds) : unit_(fill_lanes(bounds.reciprocal_size())) {
+        // In units of the largest extent, so that no difference over- or underflows.
+        const Lanes lower = bounds.lower * unit_;
+        const Lanes extent = bounds.upper * unit_ - lower;
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool divides = extent[axis] > 0.0f;
+            lower_[axis] = divides ? lower[axis] : 0.0f;
+            scale_[axis] = divides ? std::min((1 << bits_per_axis) / extent[axis], 0x1p100f) : 0.0f;
+            divides_ = divides_ || divides;
+        }
+    }
+    bool divides() const { return divides_; }
+    std::uint32_t code(const Lanes& centroid) const {
+        const Lanes position = (centroid * unit_ - lower_) * scale_;
+        const IntLanes cell =
+            __builtin_convertvector(min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
+        return spread(static_cast<std::uint32_t>(cell[0])) | (spread(static_cast<std::uint32_t>(cell[1])) << 1) |
+               (spread(static_cast<std::uint32_t>(cell[2])) << 2);
+    }
+
+private:
+    // Spreads the lowest ten bits of x so that two zeros follow each.
+    static std::uint32_t spread(std::uint32_t x) {
+        x = (x | (x << 16)) & 0x030000FFu;
+        x = (x | (x << 8)) & 0x0300F00Fu;
+        x = (x | (x << 4)) & 0x030C30C3u;
+        x = (x | (x << 2)) & 0x09249249u;
+        return x;
+    }
+
+    Lanes unit_;
+    Lanes lower_{};
+    Lanes scale_{};
+    bool divides_ = false;
+};
+
+// The keys, of all items by one grid, in the order of their codes: neighbours in it are mostly close together. Items that
+// the grid cannot tell apart are put in order on a finer one, as often as it takes, so that the order is as good where all
+// the detail is in a small corner. Items at the same place stay as they were.
+PageArray<MortonKey> morton_order(const BuildItem* items, PageArray<MortonKey> keys, std::uint32_t count,
+                                  const Parallel& parallel);
+
+} // namespace raywise

@@ -1,0 +1,99 @@
+#include "accel/bvh/traverse.h"
+
+#include <algorithm>
+
+// This file is read once for each target, and the kernels compiled for it.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/bvh/traverse.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "accel/bvh/stream-inl.h"
+#include "accel/bvh/traverse-inl.h"
+#include "ray/traversal_ray-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace raywise::HWY_NAMESPACE {
+namespace {
+
+template <class T, class Collector>
+HWY_INLINE void trace_as(const WideBvh& bvh, const Ray& ray, Collector& collector) {
+    TraversalRay traversal;
+    RayTime time;
+    if (HWY_UNLIKELY(set_up_ray(ray, bvh.frame, traversal, time) != RaySetup::ready)) return;
+    TracedRay<T, Collector> traced{bvh, ray, traversal, time, collector};
+    traverse(traced, NodeRef::node(0));
+}
+
+template <class Collector>
+HWY_INLINE void trace(const WideBvh& bvh, const Ray& ray, Collector& collector) {
+    if (bvh.nodes.empty()) return;
+    if (bvh.is_float64) {
+        trace_as<double>(bvh, ray, collector);
+    } else {
+        trace_as<float>(bvh, ray, collector);
+    }
+}
+
+void closest_kernel(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector) { trace(bvh, ray, collector); }
+void any_kernel(const WideBvh& bvh, const Ray& ray, AnyCollector& collector) { trace(bvh, ray, collector); }
+void all_kernel(const WideBvh& bvh, const Ray& ray, AllCollector& collector) { trace(bvh, ray, collector); }
+
+// A stream of fewer is not worth what it takes to make it ready.
+constexpr std::size_t smallest_stream = 32;
+
+template <class Collector>
+HWY_INLINE void trace_many(const WideBvh& bvh, const RayPacket& rays, Collector* collectors, Scratch& scratch) {
+    if (bvh.nodes.empty()) return;
+    if (rays.count < smallest_stream) {
+        for (std::size_t i = 0; i < rays.count; ++i) trace(bvh, rays.rays[i], collectors[i]);
+    } else if (bvh.is_float64) {
+        trace_streams<double>(bvh, rays, collectors, scratch);
+    } else {
+        trace_streams<float>(bvh, rays, collectors, scratch);
+    }
+}
+
+void closest_many_kernel(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
+    const Collectors<ClosestCollector> collectors(rays, scratch);
+    trace_many(bvh, rays, collectors.data(), scratch);
+    for (std::size_t i = 0; i < rays.count; ++i) hits[i] = collectors[i].best();
+}
+
+void any_many_kernel(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch) {
+    const Collectors<AnyCollector> collectors(rays, scratch);
+    trace_many(bvh, rays, collectors.data(), scratch);
+    for (std::size_t i = 0; i < rays.count; ++i) found[i] = collectors[i].found();
+}
+
+} // namespace
+} // namespace raywise::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace raywise {
+
+HWY_EXPORT(closest_kernel);
+HWY_EXPORT(any_kernel);
+HWY_EXPORT(all_kernel);
+HWY_EXPORT(closest_many_kernel);
+HWY_EXPORT(any_many_kernel);
+
+void trace_closest(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector) {
+    HWY_DYNAMIC_DISPATCH(closest_kernel)(bvh, ray, collector);
+}
+void trace_any(const WideBvh& bvh, const Ray& ray, AnyCollector& collector) {
+    HWY_DYNAMIC_DISPATCH(any_kernel)(bvh, ray, collector);
+}
+void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector) {
+    HWY_DYNAMIC_DISPATCH(all_kernel)(bvh, ray, collector);
+}
+void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(closest_many_kernel)(bvh, rays, hits, scratch);
+}
+void trace_any_many(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(any_many_kernel)(bvh, rays, found, scratch);
+}
+
+} // namespace raywise
+#endif

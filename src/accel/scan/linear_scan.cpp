@@ -1,0 +1,72 @@
+#include "accel/scan/linear_scan.h"
+
+#include "accel/dense_region.h"
+#include "geometry/corner_lines.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace raywise {
+namespace {
+
+// Whole blocks; progress is reported after each task.
+constexpr std::uint64_t blocks_per_task = 2048;
+
+} // namespace
+
+LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) {
+    if (primitives_.hittable_count() == 0) return;
+    frame_ = scene_frame(primitives_);
+    if (input.few_rays) return;
+    const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
+    // Without blocks a scan is slower; that is no reason to have none.
+    if (input.memory_limit != 0 && sizeof *this + size * sizeof(float) > input.memory_limit) return;
+    blocks_ = PageArray<float>(size);
+    gather(input);
+}
+
+void LinearScan::gather(const BuildInput& input) {
+    const std::uint64_t blocks = corner_blocks_for(primitives_.count());
+    std::atomic<std::uint64_t> done{0};
+    input.parallel.for_each((blocks + blocks_per_task - 1) / blocks_per_task, [&](std::uint64_t task) {
+        const std::uint64_t begin = task * blocks_per_task;
+        const std::uint64_t end = std::min(blocks, begin + blocks_per_task);
+        gather_blocks(primitives_, frame_, static_cast<std::uint32_t>(begin * corner_block),
+                      static_cast<std::uint32_t>(std::min<std::uint64_t>(primitives_.count(), end * corner_block)),
+                      blocks_.data() + begin * corner_block_numbers);
+        input.progress.report(static_cast<double>(done += end - begin) / static_cast<double>(blocks), "linear_scan");
+    });
+}
+
+ScannedScene LinearScan::scanned() const { return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}; }
+
+PrimitiveHit LinearScan::closest(const Ray& ray, const Query& query) const {
+    ClosestCollector collector(ray, query);
+    scan_closest(scanned(), &ray, 1, &collector);
+    return collector.best();
+}
+
+bool LinearScan::any(const Ray& ray, const Query& query) const {
+    AnyCollector collector(ray, query);
+    scan_any(scanned(), &ray, 1, &collector);
+    return collector.found();
+}
+
+void LinearScan::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const {
+    AllCollector collector(ray, query, hits);
+    scan_all(scanned(), ray, collector);
+}
+
+void LinearScan::closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const {
+    const Collectors<ClosestCollector> collectors(rays, scratch);
+    scan_closest(scanned(), rays.rays, rays.count, collectors.data());
+    for (std::size_t i = 0; i < rays.count; ++i) hits[i] = collectors[i].best();
+}
+
+void LinearScan::any_many(const RayPacket& rays, bool* found, Scratch& scratch) const {
+    const Collectors<AnyCollector> collectors(rays, scratch);
+    scan_any(scanned(), rays.rays, rays.count, collectors.data());
+    for (std::size_t i = 0; i < rays.count; ++i) found[i] = collectors[i].found();
+}
+
+} // namespace raywise

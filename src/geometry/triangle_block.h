@@ -1,0 +1,60 @@
+// Blocks of triangles: the layout that leaves keep their triangles in and that test_triangle_block (triangle_block-inl.h) reads.
+#pragma once
+
+#include "geometry/triangle_mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace raywise {
+
+// As many triangles as the widest registers hold float64.
+inline constexpr std::uint32_t triangle_block_size = 8;
+
+// n <= 8 triangles: nine lines of n coordinates, x y z of the first corners, then of the second and the third, and a line of n primitive
+// ids, each in a place as large as a coordinate. T is float or double, as the coordinates were given: nothing is rounded, moved
+// or scaled. Blocks follow each other without gaps, and behind the last one triangle_block_padding bytes may be read.
+template <class T>
+struct TriangleBlock {
+    static constexpr std::size_t bytes_per_triangle = 10 * sizeof(T);
+
+    const std::byte* data;
+    std::uint32_t n;
+
+    const T* line(std::size_t corner, std::size_t axis) const {
+        return reinterpret_cast<const T*>(data) + (3 * corner + axis) * n;
+    }
+    std::uint32_t id(std::uint32_t i) const {
+        std::uint32_t result;
+        std::memcpy(&result, data + sizeof(T) * (9 * n + i), sizeof result);
+        return result;
+    }
+    Corners corners(std::uint32_t i) const { return {corner(0, i), corner(1, i), corner(2, i)}; }
+
+private:
+    Vec3 corner(std::size_t k, std::uint32_t i) const {
+        return {static_cast<double>(line(k, 0)[i]), static_cast<double>(line(k, 1)[i]),
+                static_cast<double>(line(k, 2)[i])};
+    }
+};
+
+inline constexpr std::size_t triangle_block_padding = triangle_block_size * sizeof(double);
+
+// Writes triangle i of a block of n.
+template <class T>
+void write_block_triangle(std::byte* block, std::uint32_t n, std::uint32_t i, const T (&corners)[3][3],
+                          std::uint32_t id) {
+    T* lines = reinterpret_cast<T*>(block) + i;
+    for (const auto& corner : corners) {
+        for (const T coordinate : corner) {
+            *lines = coordinate;
+            lines += n;
+        }
+    }
+    std::byte* const place = block + sizeof(T) * (9 * n + i);
+    std::memset(place, 0, sizeof(T));
+    std::memcpy(place, &id, sizeof id);
+}
+
+} // namespace raywise

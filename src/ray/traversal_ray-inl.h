@@ -1,0 +1,100 @@
+// From the caller's ray to a TraversalRay. For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
+#if defined(RAYWISE_RAY_TRAVERSAL_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAYWISE_RAY_TRAVERSAL_RAY_INL_H_
+#undef RAYWISE_RAY_TRAVERSAL_RAY_INL_H_
+#else
+#define RAYWISE_RAY_TRAVERSAL_RAY_INL_H_
+#endif
+
+#include "ray/traversal_ray.h"
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace raywise::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+
+using Doubles = hn::Full256<double>;
+using Floats = hn::Full128<float>;
+
+HWY_INLINE std::uint32_t bits_of_axes(hn::MFromD<Doubles> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Doubles(), mask, bytes);
+    return bytes[0];
+}
+
+// The members are stored as they are made, 16 bytes at a time, and read back no wider: reading across stores would wait for them to reach
+// the cache (a store-forwarding stall).
+HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
+    const Doubles d;
+    const Floats f;
+    const hn::RebindToUnsigned<Doubles> du;
+    static_assert(offsetof(Ray, tmin) == offsetof(Ray, origin) + 24 &&
+                  offsetof(Ray, tmax) == offsetof(Ray, direction) + 24);
+    // Of x, y and z; tmin and tmax go along in the fourth lanes.
+    alignas(32) static constexpr std::uint64_t axes_of_magnitude[4] = {~std::uint64_t{0} >> 1, ~std::uint64_t{0} >> 1,
+                                                                       ~std::uint64_t{0} >> 1, 0};
+    const auto magnitude_bits = hn::BitCast(d, hn::Load(du, axes_of_magnitude));
+    const auto direction = hn::LoadU(d, &ray.direction.x);
+    const auto magnitude = hn::And(direction, magnitude_bits);
+    const auto of_pairs = hn::Max(magnitude, hn::Shuffle01(magnitude));
+    const auto largest = hn::Max(of_pairs, hn::SwapAdjacentBlocks(of_pairs)); // in all lanes
+    const auto offset = hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4()));
+    const auto offset_magnitude = hn::And(offset, magnitude_bits);
+    const auto distance_of_pairs = hn::Max(offset_magnitude, hn::Shuffle01(offset_magnitude));
+    const auto distance = hn::Max(distance_of_pairs, hn::SwapAdjacentBlocks(distance_of_pairs));
+    const auto scale = hn::Set(d, frame.scale());
+    const auto start = hn::Mul(offset, scale);
+    // Comparisons with NaN are false: such a ray goes the long way too.
+    const auto is_usual =
+        hn::And(hn::And(hn::Le(magnitude, largest), hn::Le(hn::And(start, magnitude_bits), hn::Set(d, frame.near()))),
+                hn::And(hn::Ge(largest, hn::Set(d, 0x1p-100)), hn::Le(largest, hn::Set(d, 0x1p100))));
+    if (HWY_UNLIKELY(bits_of_axes(is_usual) != 15u || !(ray.tmin <= ray.tmax)))
+        return set_up_rare_ray(ray, frame, result, time);
+
+    const auto length_bits = hn::And(hn::BitCast(du, largest), hn::Set(du, std::uint64_t{0x7FF} << 52));
+    const auto length = hn::BitCast(d, length_bits);
+    time.length = hn::GetLane(length);
+    time.scale = time.length * frame.scale();
+    time.moved = 0.0;
+    time.error = 0.0;
+    time.origin_distance = hn::GetLane(distance);
+
+    // The division does not wait for the scale of the direction, which is a power of two: it comes after.
+    const auto along = hn::DemoteTo(f, direction);
+    const auto scale_of_inverse = hn::DemoteTo(f, length);
+    const auto unscaled = hn::Div(hn::Set(f, 1.0f), hn::Abs(along));
+    const auto magnitude_of_inverse =
+        hn::Min(hn::Mul(unscaled, scale_of_inverse), hn::Set(f, 1.0f / TraversalRay::smallest_direction));
+    const auto inverse = hn::CopySign(magnitude_of_inverse, along);
+    const auto offset_in_s = hn::Mul(hn::DemoteTo(f, start), inverse);
+    const auto slack = hn::Mul(hn::Abs(offset_in_s), hn::Set(f, TraversalRay::offset_slack));
+    hn::Store(inverse, f, result.inverse);
+    hn::Store(hn::Add(offset_in_s, slack), f, result.entry_offset);
+    hn::Store(hn::Sub(offset_in_s, slack), f, result.exit_offset);
+    hn::Store(along, f, result.direction);
+    std::uint8_t backwards[8] = {};
+    hn::StoreMaskBits(f, hn::Lt(inverse, hn::Zero(f)), backwards);
+    result.octant = backwards[0] & 7u;
+    result.first = RayTime::clamped(ray.tmin * time.scale);
+    result.last = RayTime::clamped(ray.tmax * time.scale);
+    return RaySetup::ready;
+}
+
+#else
+
+HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
+    return set_up_rare_ray(ray, frame, result, time);
+}
+
+#endif
+
+} // namespace raywise::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
