@@ -7,6 +7,7 @@
 #define RAYWISE_GEOMETRY_TRIANGLE_BLOCK_INL_H_
 #endif
 
+#include "geometry/block_edges-inl.h"
 #include "geometry/primitives.h"
 #include "geometry/triangle_block.h"
 #include "ray/exact_ray.h"
@@ -19,52 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using TriangleLanes = hn::CappedTag<double, triangle_block_size>;
-using TriangleVector = hn::VFromD<TriangleLanes>;
-inline constexpr std::uint32_t triangle_lanes = hn::MaxLanes(TriangleLanes());
-
-class BlockRay {
-public:
-    HWY_INLINE explicit BlockRay(const ExactRay& exact)
-        : ray(exact),
-          x(static_cast<std::size_t>(exact.x_axis)),
-          y(static_cast<std::size_t>(exact.y_axis)),
-          z(static_cast<std::size_t>(exact.major_axis)),
-          origin_x(hn::Set(TriangleLanes(), exact.axis_origin.x)),
-          origin_y(hn::Set(TriangleLanes(), exact.axis_origin.y)),
-          origin_z(hn::Set(TriangleLanes(), exact.axis_origin.z)),
-          shear_x(hn::Set(TriangleLanes(), exact.shear_x)),
-          shear_y(hn::Set(TriangleLanes(), exact.shear_y)) {}
-
-    const ExactRay& ray;
-    std::size_t x, y, z; // axes
-    TriangleVector origin_x, origin_y, origin_z;
-    TriangleVector shear_x, shear_y;
-};
-
-// Relative to the origin and sheared.
-struct BlockCorner {
-    TriangleVector x, y, z;
-};
-
-HWY_INLINE TriangleVector load_coordinates(const double* line) { return hn::LoadU(TriangleLanes(), line); }
-HWY_INLINE TriangleVector load_coordinates(const float* line) {
-    return hn::PromoteTo(TriangleLanes(), hn::LoadU(hn::Rebind<float, TriangleLanes>(), line));
-}
-
-template <class T>
-HWY_INLINE BlockCorner block_corner(const BlockRay& ray, const TriangleBlock<T>& block, std::size_t corner,
-                                    std::uint32_t lane) {
-    const TriangleVector dx = hn::Sub(load_coordinates(block.line(corner, ray.x) + lane), ray.origin_x);
-    const TriangleVector dy = hn::Sub(load_coordinates(block.line(corner, ray.y) + lane), ray.origin_y);
-    const TriangleVector z = hn::Sub(load_coordinates(block.line(corner, ray.z) + lane), ray.origin_z);
-    return {hn::Sub(dx, hn::Mul(ray.shear_x, z)), hn::Sub(dy, hn::Mul(ray.shear_y, z)), z};
-}
-
-HWY_INLINE TriangleVector block_edge(const BlockCorner& p, const BlockCorner& q) {
-    return hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
-}
 
 template <class T, class Collector>
 HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, std::uint32_t lane,
