@@ -137,24 +137,18 @@ const rw_ray& Caller::next_ray() {
 
 const rw_hit& Caller::right_hit() const { return right_[next_]; }
 
-bool Caller::batch_closest(uint32_t threads) {
-    rw_hits hits{};
-    hits.struct_size = sizeof hits;
-    hits.t.data = t_.data();
-    hits.t.type = RW_FLOAT64;
-    std::fill(t_.begin(), t_.end(), -1.0);
-    const rw_query_options options = query_options(threads);
-    return rw_scene_intersect_batch(scene_, &batch_, &hits, &options) == RW_OK && hits_are_right();
-}
+bool Caller::batch_closest(uint32_t threads) { return batch_closest_of(scene_, threads); }
 
-bool Caller::batch_of_view(uint32_t threads) {
+bool Caller::batch_of_view(uint32_t threads) { return batch_closest_of(view_, threads); }
+
+bool Caller::batch_closest_of(const rw_scene* scene, uint32_t threads) {
     rw_hits hits{};
     hits.struct_size = sizeof hits;
     hits.t.data = t_.data();
     hits.t.type = RW_FLOAT64;
     std::fill(t_.begin(), t_.end(), -1.0);
     const rw_query_options options = query_options(threads);
-    return rw_scene_intersect_batch(view_, &batch_, &hits, &options) == RW_OK && hits_are_right();
+    return rw_scene_intersect_batch(scene, &batch_, &hits, &options) == RW_OK && hits_are_right();
 }
 
 bool Caller::batch_any(uint32_t threads) {

@@ -56,6 +56,7 @@ public:
     bool fail(uint32_t);
 
 private:
+    bool batch_closest_of(const rw_scene* scene, uint32_t threads);
     bool hits_are_right() const;
     bool flags_are_right() const;
     const rw_ray& next_ray();

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
 namespace {
 
 // Asks a text function for its size, then for the text, with buffers of every awkward size.
@@ -243,20 +245,24 @@ void profiles() {
     free_soup(&s);
 }
 
-void mesh_files() {
-    char path[] = "/tmp/raywise-facts-XXXXXX.off";
-    const int descriptor = mkstemps(path, 4);
-    CHECK(descriptor >= 0);
-    {
-        std::ofstream file(path);
-        file << "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 2\n4 0 1 2 3\n3 0 1 4\n4 1 2 3 4\n";
-    }
+// The mesh of a file with this ending and content, and its arrays.
+rw_mesh* mesh_of_file(const std::string& ending, const char* content, rw_triangles& t) {
+    std::string path = "/tmp/raywise-facts-XXXXXX" + ending;
+    const int descriptor = mkstemps(path.data(), static_cast<int>(ending.size()));
+    CHECK(descriptor >= 0 && close(descriptor) == 0);
+    std::ofstream(path) << content;
     rw_mesh* mesh = nullptr;
-    NEED_OK(rw_mesh_load(path, &mesh));
-    remove(path);
-    rw_triangles t{};
+    NEED_OK(rw_mesh_load(path.c_str(), &mesh));
+    remove(path.c_str());
     t.struct_size = sizeof t;
     CHECK_OK(rw_mesh_triangles(mesh, &t));
+    return mesh;
+}
+
+void mesh_files() {
+    rw_triangles t{};
+    rw_mesh* mesh =
+        mesh_of_file(".off", "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 2\n4 0 1 2 3\n3 0 1 4\n4 1 2 3 4\n", t);
     CHECK(t.struct_size == sizeof t && t.vertex_count == 5 && t.triangle_count == 5 && t.vertices.data != nullptr &&
           t.indices.data != nullptr);
     CHECK(t.vertices.type == RW_FLOAT32 && t.vertices.stride == 0 && t.indices.type == RW_UINT32);
@@ -283,19 +289,9 @@ void mesh_files() {
 
 // Without float64, this triangle would be a line; a ray goes through its middle.
 void mesh_files_of_float64() {
-    char path[] = "/tmp/raywise-facts-XXXXXX.obj";
-    const int descriptor = mkstemps(path, 4);
-    CHECK(descriptor >= 0);
-    {
-        std::ofstream file(path);
-        file << "v 6378137.123456789 0 0\nv 6378137.123456790 8 0\nv 6378137.123456790 0 8\nf 1 2 3\n";
-    }
-    rw_mesh* mesh = nullptr;
-    NEED_OK(rw_mesh_load(path, &mesh));
-    remove(path);
     rw_triangles t{};
-    t.struct_size = sizeof t;
-    CHECK_OK(rw_mesh_triangles(mesh, &t));
+    rw_mesh* mesh =
+        mesh_of_file(".obj", "v 6378137.123456789 0 0\nv 6378137.123456790 8 0\nv 6378137.123456790 0 8\nf 1 2 3\n", t);
     CHECK(t.vertices.type == RW_FLOAT64 && static_cast<const double*>(t.vertices.data)[0] == 6378137.123456789);
     for (const uint32_t flags : {0u, RW_TRIANGLES_SHARED}) {
         t.flags = flags;
