@@ -1,7 +1,7 @@
 #include "geometry/exact.h"
 
+#include "base/expansion.h"
 #include "geometry/exact_integers.h"
-#include "geometry/expansion.h"
 
 #include <algorithm>
 #include <cmath>

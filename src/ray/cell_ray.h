@@ -46,7 +46,8 @@ public:
         const Vec3 center = bounds.center();
         const double size = max_component(bounds.size());
         base_ = 0x1p-34 * largest_extent;
-        if (max_component(magnitudes(start - center)) > farthest * size) move(center, size, largest_extent);
+        const double distance = max_component(magnitudes(start - center));
+        if (distance > farthest * size) move(center, distance, size, largest_extent);
         for (int axis = 0; axis < 3; ++axis) inverse[axis] = 1.0 / direction[axis];
         first = lower_end(ray.tmin);
         last = upper_end(ray.tmax);
@@ -87,7 +88,7 @@ public:
 
 private:
     // To the point of the line that is nearest to the center.
-    void move(const Vec3& center, double size, double largest_extent);
+    void move(const Vec3& center, double distance, double size, double largest_extent);
 
     DirectionScale scale_;
     double moved_ = 0.0;

@@ -1,40 +1,20 @@
 #include "ray/traversal_ray.h"
 
+#include "base/expansion.h"
 #include "ray/direction_scale.h"
 #include "ray/exact_ray.h"
+#include "ray/nearest_point.h"
 
 namespace raywise {
-namespace {
-
-// a - b without loss: the difference, and what it was rounded by (Knuth 1969; Shewchuk 1997, "Two-Diff").
-struct Difference {
-    double value;
-    double rest;
-
-    Difference(double a, double b) : value(a - b) {
-        const double virtual_b = a - value;
-        const double virtual_a = value + virtual_b;
-        rest = (a - virtual_a) + (virtual_b - b);
-    }
-};
-
-} // namespace
 
 MovedStart::MovedStart(const Vec3& origin, const Vec3& direction, const SceneFrame& frame) {
     const Vec3 center = frame.center();
-    const double length2 = glm::dot(direction, direction);
     start = frame.to_frame(origin);
-    const double distance = max_component(magnitudes(start));
-    moved = -glm::dot(start, direction) / length2;
-    for (int axis = 0; axis < 3; ++axis) {
-        const Difference offset(origin[axis], center[axis]);
-        start[axis] = std::fma(moved, direction[axis], offset.value * frame.scale()) + offset.rest * frame.scale();
-    }
-    // That was as near as the steps of `moved` allow, which are 2^-52 of it, and rounded by 2^-53 of what is left; once more.
-    const double rest = -glm::dot(start, direction) / length2;
-    for (int axis = 0; axis < 3; ++axis) start[axis] = std::fma(rest, direction[axis], start[axis]);
-    moved += rest;
-    error = 0x1p-103 * distance;
+    error = 0x1p-103 * max_component(magnitudes(start));
+    moved = move_to_nearest(start, direction, Vec3(0.0));
+    // What the difference from the center was rounded by.
+    for (int axis = 0; axis < 3; ++axis) start[axis] += two_sum(origin[axis], -center[axis]).low * frame.scale();
+    moved += move_to_nearest(start, direction, Vec3(0.0));
 }
 
 namespace {
