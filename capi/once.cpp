@@ -12,8 +12,7 @@ Progress::Callback read_build_watch(const rw_query_options& options) {
     BatchWatch watch = read_watch(options);
     if (watch.cancel == nullptr) return std::move(watch.progress);
     return [watch = std::move(watch)](double fraction, const char* stage) {
-        return __atomic_load_n(watch.cancel, __ATOMIC_RELAXED) != 0 ||
-               (watch.progress && watch.progress(fraction, stage));
+        return watch.is_cancelled() || (watch.progress && watch.progress(fraction, stage));
     };
 }
 

@@ -34,9 +34,7 @@ void BatchProgress::report(const char* stage) {
 }
 
 void BatchProgress::look() {
-    // A load that no compiler may leave out or repeat, and that may race with the host's store.
-    if (watch_.cancel != nullptr && __atomic_load_n(watch_.cancel, __ATOMIC_RELAXED) != 0)
-        stopped_by_.store("options.cancel", std::memory_order_relaxed);
+    if (watch_.is_cancelled()) stopped_by_.store("options.cancel", std::memory_order_relaxed);
     throw_if_stopped();
     if (!watch_.progress || (!any_thread_reports_ && std::this_thread::get_id() != caller_)) return;
     const std::unique_lock lock(reporting_, std::try_to_lock);

@@ -16,6 +16,9 @@ namespace raywise {
 struct BatchWatch {
     Progress::Callback progress;                   // empty: none
     const volatile std::int32_t* cancel = nullptr; // not 0: stop; anybody may set it at any time; null: none
+
+    // By a load that no compiler may leave out or repeat, and that may race with the host's store.
+    bool is_cancelled() const { return cancel != nullptr && __atomic_load_n(cancel, __ATOMIC_RELAXED) != 0; }
 };
 
 class BatchProgress {
