@@ -4,11 +4,11 @@
 // Tracing", are the sources of the idea; rays keep their own interval here, and groups that have become small go on one by one.
 //
 // For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
-#if defined(RAYWISE_ACCEL_WIDE_STREAMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RAYWISE_ACCEL_WIDE_STREAMS_INL_H_
-#undef RAYWISE_ACCEL_WIDE_STREAMS_INL_H_
+#if defined(RAYWISE_ACCEL_BVH_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAYWISE_ACCEL_BVH_STREAM_INL_H_
+#undef RAYWISE_ACCEL_BVH_STREAM_INL_H_
 #else
-#define RAYWISE_ACCEL_WIDE_STREAMS_INL_H_
+#define RAYWISE_ACCEL_BVH_STREAM_INL_H_
 #endif
 
 #include "accel/accel.h"

@@ -1,9 +1,9 @@
 // The traversal itself. For each target of Highway once: include it inside the loop of hwy/foreach_target.h.
-#if defined(RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
-#undef RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
+#if defined(RAYWISE_ACCEL_BVH_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAYWISE_ACCEL_BVH_TRAVERSE_INL_H_
+#undef RAYWISE_ACCEL_BVH_TRAVERSE_INL_H_
 #else
-#define RAYWISE_ACCEL_WIDE_TRAVERSAL_INL_H_
+#define RAYWISE_ACCEL_BVH_TRAVERSE_INL_H_
 #endif
 
 #include "accel/bvh/binary_tree.h"
