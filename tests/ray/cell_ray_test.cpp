@@ -1,10 +1,11 @@
 // What a ray in float64 is known to by structures that divide space: where it starts, and what its distances may be off by.
 #include "ray/cell_ray.h"
 
+#include "random.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace raywise {
 namespace {
@@ -30,22 +31,8 @@ bool meets(const CellRay& ray, const Box& box) {
     return near <= far;
 }
 
-class Random {
-public:
-    double number() { return 2.0 * (static_cast<double>(engine_() >> 11) * 0x1p-53) - 1.0; }
-    Vec3 point() {
-        const double x = number();
-        const double y = number();
-        return {x, y, number()};
-    }
-    std::uint64_t integer() { return engine_(); }
-
-private:
-    std::mt19937_64 engine_{2};
-};
-
 TEST(CellRay, MeetsEveryBoxThatItsLinePassesThrough) {
-    Random random;
+    Random random(2);
     for (int i = 0; i < 20000; ++i) {
         const double scale = std::ldexp(1.0, static_cast<int>(random.integer() % 80) - 40);
         Box box;
@@ -81,7 +68,7 @@ TEST(CellRay, LeavesOutWhatIsFarOff) {
 
 // From 1e11 times the size of the scene: the start lies within it, and what is known of the line is as good as near by.
 TEST(CellRay, FromFarAwayStartsNearTheScene) {
-    Random random;
+    Random random(2);
     const Box box{Vec3(-1.0), Vec3(1.0)};
     for (int i = 0; i < 1000; ++i) {
         const Vec3 target = 0.5 * random.point();

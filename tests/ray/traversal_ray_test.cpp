@@ -1,29 +1,17 @@
 // Rays in float32: what they cull must not hold a hit, and how much they visit must not depend on what lies far off.
 #include "ray/traversal_ray.h"
 
+#include "random.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 
 namespace raywise {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-class Random {
-public:
-    double number() { return 2.0 * (static_cast<double>(engine_() >> 11) * 0x1p-53) - 1.0; }
-    Vec3 point() {
-        const double x = number();
-        const double y = number();
-        return {x, y, number()};
-    }
-
-private:
-    std::mt19937_64 engine_{5};
-};
 
 // The slab test as traversals make it, on a box in the scene's coordinates.
 bool meets(const TraversalRay& ray, const SceneFrame& frame, const Vec3& lower, const Vec3& upper) {
@@ -49,7 +37,7 @@ struct Traced {
 };
 
 TEST(TraversalRay, MeetsTheBoxOfEveryHit) {
-    Random random;
+    Random random(5);
     const Vec3 centers[] = {Vec3(0.0), Vec3(5e5, 5.1e6, 100.0)};
     for (const Vec3& center : centers) {
         for (const double far : {1.0, 1e5, 1e30}) {
@@ -79,8 +67,8 @@ TEST(TraversalRay, MeetsTheBoxOfEveryHit) {
 TEST(TraversalRay, MeetsNoMoreFromFarAwayOrBecauseOfIt) {
     for (const double far : {1.0, 1e5, 1e30}) {
         const SceneFrame frame(Vec3(0.0), 1.0, {Vec3(-far), Vec3(far)});
-        Random near_random;
-        Random far_random;
+        Random near_random(5);
+        Random far_random(5);
         int near_boxes = 0;
         int far_boxes = 0;
         const auto count = [&](double away, Random& random) {
