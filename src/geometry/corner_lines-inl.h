@@ -30,6 +30,8 @@ HWY_INLINE T* lane_of(T* blocks, std::size_t lane) {
     return blocks + lane / corner_block * corner_block_numbers + lane % corner_block;
 }
 
+inline constexpr std::uint32_t listed_at_once = 8;
+
 // ---- Reading the caller's arrays. They need not be aligned.
 
 // Vertices whose components lie side by side.
@@ -292,19 +294,23 @@ HWY_INLINE std::uint32_t gather_groups(const TriangleArrays& arrays, const Index
     return first;
 }
 
+// Calls visit(index) with what tells the vertices of a triangle.
+template <class Visit>
+HWY_INLINE auto with_indices(const StridedArray& i, const Visit& visit) {
+    if (i.data == nullptr) return visit(NoIndices());
+    if (i.scalar == Scalar::uint32) {
+        if (i.is_packed()) return visit(PackedIndices{i.data});
+        return visit(Indices<std::uint32_t>{i.data, i.stride, i.component_stride});
+    }
+    return visit(Indices<std::uint64_t>{i.data, i.stride, i.component_stride});
+}
+
 template <class Coordinate, class Out>
 HWY_INLINE std::uint32_t gather_groups_of(const TriangleArrays& arrays, std::uint32_t first, std::uint32_t end,
                                           const CornerFrame& frame, Out* HWY_RESTRICT blocks, std::size_t lane) {
-    const StridedArray& i = arrays.indices;
-    if (i.data == nullptr) return gather_groups<Coordinate>(arrays, NoIndices(), first, end, frame, blocks, lane);
-    if (i.scalar == Scalar::uint32) {
-        if (i.is_packed())
-            return gather_groups<Coordinate>(arrays, PackedIndices{i.data}, first, end, frame, blocks, lane);
-        const Indices<std::uint32_t> index{i.data, i.stride, i.component_stride};
+    return with_indices(arrays.indices, [&](const auto& index) HWY_ATTR {
         return gather_groups<Coordinate>(arrays, index, first, end, frame, blocks, lane);
-    }
-    const Indices<std::uint64_t> index{i.data, i.stride, i.component_stride};
-    return gather_groups<Coordinate>(arrays, index, first, end, frame, blocks, lane);
+    });
 }
 
 // Whatever the layout. Triangles that are invalid have no corners: NaN stands for them.
@@ -340,6 +346,36 @@ inline void gather_mesh(const TriangleMesh& mesh, std::uint32_t first, std::uint
         lane += first - begin;
     }
     while (first < end) one();
+}
+
+// Triangles in a list, in its order.
+template <class Index>
+struct ListedIndices {
+    Index index;
+    const std::uint32_t* list;
+
+    HWY_INLINE std::uint64_t operator()(std::uint64_t i, std::uint64_t corner) const { return index(list[i], corner); }
+};
+
+// The corners of eight listed triangles of a mesh whose vertices are rows of T, as they are, to the first lanes of a block.
+template <class T>
+HWY_INLINE void gather_listed(const TriangleArrays& arrays, const std::uint32_t* list, T* HWY_RESTRICT lines) {
+    with_indices(arrays.indices, [&](const auto& index) HWY_ATTR {
+        const ListedIndices<std::remove_cv_t<std::remove_reference_t<decltype(index)>>> listed{index, list};
+#if HWY_TARGET != HWY_SCALAR
+        if constexpr (std::is_same_v<T, float>) {
+            if (arrays.vertices.is_packed()) {
+                const PackedRows rows{arrays.vertices.data, arrays.vertex_count - 1};
+                for (std::uint32_t first = 0; first < listed_at_once; first += row_group_size)
+                    gather_row_group<true>(rows, listed, first, hn::Set(RowTag(), 1.0f), lines + first);
+                return;
+            }
+        }
+#endif
+        const VertexRows vertices{arrays.vertices.data, arrays.vertices.stride};
+        for (std::uint32_t first = 0; first < listed_at_once; first += group_size)
+            gather_group<T>(vertices, listed, first, CornerFrame{}, lines + first);
+    });
 }
 
 // NaN for lanes that stand for no triangle.

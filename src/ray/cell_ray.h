@@ -72,6 +72,8 @@ public:
         const double far = larger(a, b) + plane_error[axis];
         return {near - margin(near), far + margin(far)};
     }
+    // Whether planes have an error besides the margin.
+    bool is_moved() const { return plane_error != Vec3(0.0); }
     // Whether anything is known of where it passes; elsewhere all has to be tested.
     bool is_known() const { return base_ < std::numeric_limits<double>::infinity(); }
 

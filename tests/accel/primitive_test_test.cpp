@@ -2,6 +2,7 @@
 #include "accel/primitive_test.h"
 
 #include "geometry/every_target.h"
+#include "geometry/laid_out_mesh.h"
 #include "geometry/primitives.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +41,7 @@ std::unique_ptr<Primitives> primitives_of(const std::vector<Case>& cases) {
 }
 
 // Each ray with the triangle that it was made for and those around it, `together` in a list. Returns how many hits there were.
-std::size_t compare(const std::vector<Case>& cases, std::size_t together) {
-    const std::unique_ptr<Primitives> primitives = primitives_of(cases);
+std::size_t compare(const std::vector<Case>& cases, const Primitives* primitives, std::size_t together) {
     std::size_t hits = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const Ray& ray = cases[i].ray;
@@ -77,6 +77,38 @@ std::size_t compare(const std::vector<Case>& cases, std::size_t together) {
     return hits;
 }
 
+std::size_t compare(const std::vector<Case>& cases, std::size_t together) {
+    return compare(cases, primitives_of(cases).get(), together);
+}
+
+// The cases' triangles in meshes of one layout, the first of which has `in_first`.
+class LaidOut {
+public:
+    LaidOut(const std::vector<Case>& cases, const Layout& layout, std::size_t in_first) {
+        add(cases, 0, in_first, layout);
+        if (in_first < cases.size()) add(cases, in_first, cases.size(), layout);
+        std::vector<std::shared_ptr<const TriangleMesh>> shared;
+        for (const auto& mesh : meshes_) shared.push_back(mesh->shared());
+        primitives_ = std::make_unique<Primitives>(shared);
+    }
+    const Primitives* primitives() const { return primitives_.get(); }
+
+private:
+    // From the last corner to the first, so that the last vertex is among those of the first triangle.
+    void add(const std::vector<Case>& cases, std::size_t begin, std::size_t end, const Layout& layout) {
+        std::vector<Vec3> vertices;
+        std::vector<std::uint64_t> indices;
+        for (std::size_t i = end; i-- > begin;)
+            for (const Vec3& corner : cases[i].corners) vertices.push_back(corner);
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < 3; ++k) indices.push_back(3 * (end - 1 - i) + k);
+        meshes_.push_back(std::make_unique<LaidOutMesh>(vertices, indices, layout));
+    }
+
+    std::vector<std::unique_ptr<LaidOutMesh>> meshes_;
+    std::unique_ptr<Primitives> primitives_;
+};
+
 class Maker {
 public:
     double number() { return uniform_(engine_); }
@@ -107,6 +139,22 @@ TEST(PrimitiveTest, AnswersAsForOneTriangle) {
     on_every_target([&] {
         for (const std::size_t together : {1u, 2u, 3u, 4u, 7u, 8u, 9u, 17u}) EXPECT_GT(compare(cases, together), 2000u);
     });
+}
+
+TEST(PrimitiveTest, ReadsEveryLayoutOfOneMeshAndOfTwo) {
+    Maker maker;
+    std::vector<Case> cases;
+    for (int i = 0; i < 600; ++i) cases.push_back(maker.make(1.0, 0.1, Vec3(0.0)));
+    for (const Layout& layout : every_layout()) {
+        SCOPED_TRACE(layout.name);
+        for (const std::size_t in_first : {cases.size(), std::size_t{301}}) {
+            const LaidOut laid_out(cases, layout, in_first);
+            on_every_target([&] {
+                for (const std::size_t together : {3u, 5u, 8u, 11u})
+                    EXPECT_GT(compare(cases, laid_out.primitives(), together), 300u);
+            });
+        }
+    }
 }
 
 TEST(PrimitiveTest, AnswersAsForOneTriangleAtAnySizeAndLength) {

@@ -88,10 +88,13 @@ HWY_INLINE std::uint32_t lowest_bit(std::uint32_t bits) { return static_cast<std
 template <class T>
 HWY_INLINE void prefetch(const WideBvh& bvh, NodeRef reference) {
     const std::size_t index = reference.index();
-    const char* const target = reference.is_leaf() ? reinterpret_cast<const char*>(bvh.blocks.data()) +
-                                                         TriangleBlock<T>::bytes_per_triangle * index
-                                                   : reinterpret_cast<const char*>(bvh.nodes.data() + index);
-    for (std::size_t line = 0; line < sizeof(WideNode); line += 64) __builtin_prefetch(target + line);
+    const char* target = reinterpret_cast<const char*>(bvh.nodes.data() + index);
+    std::size_t bytes = sizeof(WideNode);
+    if (reference.is_leaf()) {
+        target = reinterpret_cast<const char*>(bvh.blocks.data()) + TriangleBlock<T>::bytes_per_triangle * index;
+        bytes = TriangleBlock<T>::bytes_per_triangle * triangle_block_size;
+    }
+    for (std::size_t line = 0; line < bytes; line += 64) __builtin_prefetch(target + line);
 }
 
 // A ray on its way through a tree: what culls, and what decides, which is made when the first leaf is met. T: of the tree's triangles.

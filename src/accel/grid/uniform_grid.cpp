@@ -28,15 +28,10 @@ struct Pair {
     std::uint32_t primitive;
 };
 
-struct Frame {
-    Vec3 lower;
-    Vec3 cells_per_unit;
-    std::array<std::uint32_t, 3> resolution;
-
-    Corners to_grid(const Corners& c) const {
-        return {(c[0] - lower) * cells_per_unit, (c[1] - lower) * cells_per_unit, (c[2] - lower) * cells_per_unit};
-    }
-};
+Corners to_cells(const CellLattice& lattice, const Corners& c) {
+    const auto to_cells = [&](const Vec3& p) { return (p - lattice.bounds.lower) * lattice.cells_per_unit; };
+    return {to_cells(c[0]), to_cells(c[1]), to_cells(c[2])};
+}
 
 // The cells in runs of 2^shift, small enough for the counters of a run to stay in the cache: counting and filling
 // references straight into all cells would miss it at nearly every step when the primitives come in no order.
@@ -56,10 +51,10 @@ struct Block {
 
 class Builder {
 public:
-    Builder(const BuildInput& input, const Frame& frame)
+    Builder(const BuildInput& input, const CellLattice& lattice)
         : input_(input),
-          frame_(frame),
-          cells_(std::uint64_t{frame.resolution[0]} * frame.resolution[1] * frame.resolution[2]),
+          lattice_(lattice),
+          cells_(std::uint64_t{lattice.resolution[0]} * lattice.resolution[1] * lattice.resolution[2]),
           runs_(cells_),
           blocks_((input.primitives.count() - 1) / primitives_per_block + 1) {}
 
@@ -83,7 +78,8 @@ public:
         return total <= allowed;
     }
 
-    void sort_pairs(std::vector<std::uint32_t>& offsets, std::vector<std::uint32_t>& references) {
+    void sort_pairs(std::vector<std::uint32_t>& offsets, std::vector<std::uint32_t>& references,
+                    std::vector<std::uint64_t>& occupied) {
         std::vector<std::uint64_t> run_begin(runs_.count + 1, 0);
         std::uint64_t position = 0;
         for (std::uint64_t run = 0; run < runs_.count; ++run) {
@@ -108,6 +104,7 @@ public:
         offsets.resize(cells_ + 1);
         offsets[cells_] = static_cast<std::uint32_t>(references_);
         references.resize(references_);
+        occupied.resize((cells_ + 63) / 64);
         input_.parallel.for_each(runs_.count, [&](std::uint64_t run) {
             const std::uint64_t first_cell = run << runs_.shift;
             const std::uint64_t cells = std::min(cells_ - first_cell, std::uint64_t{1} << runs_.shift);
@@ -117,6 +114,8 @@ public:
             for (std::uint64_t c = 0; c < cells; ++c) {
                 offsets[first_cell + c] = begin;
                 const std::uint32_t count = next[c];
+                // A word belongs to one run.
+                occupied[(first_cell + c) / 64] |= std::uint64_t{count != 0} << (first_cell + c) % 64;
                 next[c] = begin;
                 begin += count;
             }
@@ -136,12 +135,12 @@ private:
         const auto begin = static_cast<std::uint32_t>(b * primitives_per_block);
         const std::uint32_t end = std::min(primitives.count() - begin, primitives_per_block) + begin;
         block.pairs.reserve(2 * std::size_t{end - begin});
-        const std::uint32_t row = frame_.resolution[0];
-        const std::uint32_t layer = row * frame_.resolution[1];
+        const std::uint32_t row = lattice_.resolution[0];
+        const std::uint32_t layer = row * lattice_.resolution[1];
         for (std::uint32_t i = begin; i < end; ++i) {
             if (!primitives.is_hittable(i)) continue;
-            const Corners corners = frame_.to_grid(primitives.corners(i));
-            for_each_overlapped_cell(corners, bounding_cells(corners, frame_.resolution),
+            const Corners corners = to_cells(lattice_, primitives.corners(i));
+            for_each_overlapped_cell(corners, bounding_cells(corners, lattice_.resolution),
                                      [&](std::int32_t x, std::int32_t y, std::int32_t z) {
                                          const std::uint32_t cell = static_cast<std::uint32_t>(x) +
                                                                     static_cast<std::uint32_t>(y) * row +
@@ -154,7 +153,7 @@ private:
     }
 
     const BuildInput& input_;
-    Frame frame_;
+    const CellLattice& lattice_;
     std::uint64_t cells_;
     Runs runs_;
     std::vector<Block> blocks_;
@@ -205,21 +204,20 @@ std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives
 UniformGrid::UniformGrid(const BuildInput& input, double density) : TraversedAccel(input.primitives) {
     const Primitives& primitives = input.primitives;
     if (primitives.hittable_count() == 0) return;
-    lower_ = primitives.bounds().lower;
-    upper_ = primitives.bounds().upper;
+    lattice_.bounds = primitives.bounds();
     const Vec3 size = primitives.bounds().size();
 
     double cells = density * static_cast<double>(primitives.hittable_count());
     for (;;) {
-        resolution_ = grid_resolution(size, cells, 1.0);
+        lattice_.resolution = grid_resolution(size, cells, 1.0);
         for (int axis = 0; axis < 3; ++axis) {
-            const double count = resolution_[static_cast<std::size_t>(axis)];
-            width_[axis] = size[axis] / count;
-            cells_per_unit_[axis] = count > 1.0 ? count / size[axis] : 0.0;
+            const double count = lattice_.resolution[static_cast<std::size_t>(axis)];
+            lattice_.width[axis] = size[axis] / count;
+            lattice_.cells_per_unit[axis] = count > 1.0 ? count / size[axis] : 0.0;
         }
-        Builder builder(input, {lower_, cells_per_unit_, resolution_});
+        Builder builder(input, lattice_);
         if (builder.find_pairs()) {
-            builder.sort_pairs(offsets_, references_);
+            builder.sort_pairs(offsets_, references_, occupied_);
             break;
         }
         cells /= 4.0; // with one cell everything fits
@@ -227,7 +225,8 @@ UniformGrid::UniformGrid(const BuildInput& input, double density) : TraversedAcc
 }
 
 std::size_t UniformGrid::bytes() const {
-    return sizeof *this + (offsets_.capacity() + references_.capacity()) * sizeof(std::uint32_t);
+    return sizeof *this + (offsets_.capacity() + references_.capacity()) * sizeof(std::uint32_t) +
+           occupied_.capacity() * sizeof(std::uint64_t);
 }
 
 } // namespace raywise

@@ -33,6 +33,11 @@ public:
     void traverse(const ExactRay& ray, Collector& collector) const;
 
 private:
+    // is_moved: whether the planes' distances have an error besides the margin. Nearly no ray is, and the others need not wait for two sums
+    // at each node (a twentieth of their time).
+    template <bool is_moved, class Collector>
+    void walk(const CellRay& ray, const ExactRay& exact_ray, Collector& collector) const;
+
     KdTreeData tree_;
 };
 
@@ -44,11 +49,27 @@ void KdTree::traverse(const ExactRay& exact_ray, Collector& collector) const {
     }
     const CellRay ray(exact_ray, primitives().bounds(), primitives().largest_extent());
     if (!ray.is_known()) return test_all_primitives(exact_ray, collector);
+    if (ray.is_moved()) return walk<true>(ray, exact_ray, collector);
+    walk<false>(ray, exact_ray, collector);
+}
+
+template <bool is_moved, class Collector>
+void KdTree::walk(const CellRay& ray, const ExactRay& exact_ray, Collector& collector) const {
     double near = ray.first;
     double far = ray.last;
-    std::array<std::uint32_t, 3> nearer; // which child the ray meets first
+    // What a node asks of its axis, side by side: the axes of the nodes on a way are hard to predict, so that a choice by branches
+    // would cost more than the step.
+    struct Axis {
+        double plane_base;
+        double start;
+        double inverse;
+        double plane_error;
+        std::uint32_t nearer; // which child the ray meets first
+    };
+    std::array<Axis, 3> axes;
     for (int axis = 0; axis < 3; ++axis) {
-        nearer[static_cast<std::size_t>(axis)] = std::signbit(ray.inverse[axis]) ? 1u : 0u;
+        axes[static_cast<std::size_t>(axis)] = {tree_.plane_base[axis], ray.start[axis], ray.inverse[axis],
+                                                ray.plane_error[axis], std::signbit(ray.inverse[axis]) ? 1u : 0u};
         const double lower = primitives().bounds().lower[axis];
         const double upper = primitives().bounds().upper[axis];
         if (ray.direction[axis] == 0.0) {
@@ -76,11 +97,10 @@ void KdTree::traverse(const ExactRay& exact_ray, Collector& collector) const {
     for (;;) {
         KdNode node = nodes[at];
         while (!node.is_leaf()) {
-            const int axis = node.axis();
-            const double t =
-                (KdTreeData::plane(tree_.plane_base[axis], node.split()) - ray.start[axis]) * ray.inverse[axis];
-            const double error = ray.plane_error[axis];
-            const std::uint32_t first = nearer[static_cast<std::size_t>(axis)];
+            const Axis& axis = axes[static_cast<std::size_t>(node.axis())];
+            const double t = (KdTreeData::plane(axis.plane_base, node.split()) - axis.start) * axis.inverse;
+            const double error = is_moved ? axis.plane_error : 0.0;
+            const std::uint32_t first = axis.nearer;
             if (t - error > far) {
                 at = node.child() + first;
             } else if (t + error < near) {
