@@ -23,6 +23,7 @@ public:
         // A scene smaller than 2^-900 stays small in its frame: the scale itself has to be a number.
         const int exponent = largest > 0x1p-900 ? std::ilogb(largest) + 1 : -900;
         scale_ = std::ldexp(1.0, -exponent);
+        radius_ = radius;
         near_ = smaller(near_radii * larger(radius * scale_, 0x1p-100), near_radii);
     }
 
@@ -41,6 +42,7 @@ public:
 
     Vec3 center() const { return {center_[0], center_[1], center_[2]}; }
     const double* center4() const { return center_; } // x y z, and a zero
+    double radius() const { return radius_; }         // in the scene's unit; see the constructor
     double scale() const { return scale_; }           // a power of two
     // Rays that start farther from the center than this, in the frame, are moved (ray/traversal_ray.h).
     double near() const { return near_; }
@@ -62,6 +64,7 @@ private:
     static constexpr double near_radii = 16.0;
 
     double center_[4] = {0.0, 0.0, 0.0, 0.0};
+    double radius_ = 0.0;
     double scale_ = 1.0;
     double near_ = near_radii;
 };

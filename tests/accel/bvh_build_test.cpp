@@ -95,6 +95,42 @@ TEST(BvhBuild, SoupsOfAllSizes) {
     }
 }
 
+// Hills, n by n squares of side 1 around `corner`.
+Triangles hills(int n, const Vec3& corner) {
+    const auto point = [&](int x, int y) { return corner + Vec3(x, y, 4.0 * std::sin(0.3 * x) * std::cos(0.2 * y)); };
+    Triangles triangles;
+    for (int x = 0; x < n; ++x) {
+        for (int y = 0; y < n; ++y) {
+            triangles.push_back({point(x, y), point(x + 1, y), point(x, y + 1)});
+            triangles.push_back({point(x + 1, y), point(x + 1, y + 1), point(x, y + 1)});
+        }
+    }
+    return triangles;
+}
+
+double area_of_boxes_below(double limit, const BvhTree& tree) {
+    double sum = 0.0;
+    for (const BvhPair& pair : tree.pairs) {
+        for (const BvhNode& node : pair.child) {
+            const double area = bounds_of(node).half_area();
+            if (area < limit) sum += area;
+        }
+    }
+    return sum;
+}
+
+TEST(BvhBuild, AStrayCornerCostsTheOthersNothing) {
+    const Vec3 corner(528980.0, 5183526.0, 112.0);
+    Triangles triangles = hills(200, corner);
+    Scene alone(triangles, 1);
+    triangles.push_back({corner, corner + Vec3(1.0, 0.0, 0.0), Vec3(0.0)});
+    Scene with_stray(triangles, 1);
+    const double before = area_of_boxes_below(400.0, build_bvh(alone.input(), 1.0, wide_leaves));
+    const double after = area_of_boxes_below(400.0, build_bvh(with_stray.input(), 1.0, wide_leaves));
+    EXPECT_LT(after, 1.2 * before);
+    EXPECT_GT(after, 0.8 * before);
+}
+
 TEST(BvhBuild, LeavesAreWhatTheCostsSay) {
     Scene scene(soup(20000, 0.01, 31));
     // A test is next to nothing: no leaf is split that may stay whole.

@@ -46,7 +46,7 @@ double sibling_overlap(const BvhTree& tree) {
 }
 
 BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame, const Report& report) {
-    BuildReferences references = gather_references(input, frame.center(), report);
+    BuildReferences references = gather_references(input, frame, report);
     const Bounds bounds = references.bounds;
     const std::uint32_t count = references.count;
     auto order = morton_order(references.items.data(), std::move(references.keys), count, input.parallel);
@@ -68,8 +68,7 @@ TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeC
                              const Report& report) {
     TreeAndCost result;
     result.tree.frame = frame;
-    build_with_spatial_splits(gather_references(input, frame.center(), report), budget, input, costs, report,
-                              result.tree);
+    build_with_spatial_splits(gather_references(input, frame, report), budget, input, costs, report, result.tree);
     result.cost = optimise_by_reinsertion(result.tree, costs, input.parallel, report);
     return result;
 }

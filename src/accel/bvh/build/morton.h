@@ -15,7 +15,7 @@ struct MortonKey {
     std::uint32_t index; // of the item
 };
 
-// A grid of 2^10 cells along each axis over the bounds of what it has to order.
+// A grid of 2^10 cells along each axis. What lies outside its bounds belongs to the cells along the border.
 class MortonGrid {
 public:
     static constexpr int bits_per_axis = 10;
@@ -34,8 +34,8 @@ public:
     bool divides() const { return divides_; }
     std::uint32_t code(const Lanes& centroid) const {
         const Lanes position = (centroid * unit_ - lower_) * scale_;
-        const IntLanes cell =
-            __builtin_convertvector(min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), IntLanes);
+        const Lanes inside = max_lanes(min_lanes(position, fill_lanes((1 << bits_per_axis) - 1)), Lanes{});
+        const IntLanes cell = __builtin_convertvector(inside, IntLanes);
         return spread(static_cast<std::uint32_t>(cell[0])) | (spread(static_cast<std::uint32_t>(cell[1])) << 1) |
                (spread(static_cast<std::uint32_t>(cell[2])) << 2);
     }

@@ -28,11 +28,20 @@ BuildItem make_item(const CornersF& c) {
     return bounds.item(0, 1);
 }
 
+// Where most primitives are. A curve over all of a scene would follow one axis alone where something lies far off along the two others:
+// terrain with a stray corner at the origin would be cut into layers. What lies outside has the codes of the cells along the border.
+Bounds dense_part(const Bounds& all, double radius) {
+    constexpr double radii = 4.0;
+    const Lanes reach = fill_lanes(static_cast<float>(std::min(radii * radius, 0x1p127)));
+    return {max_lanes(all.lower, -reach), min_lanes(all.upper, reach)};
+}
+
 } // namespace
 
-BuildReferences gather_references(const BuildInput& input, const Vec3& center,
+BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame,
                                   const std::function<void(std::uint64_t)>& report) {
     const Primitives& primitives = input.primitives;
+    const Vec3 center = frame.center();
     std::vector<std::uint32_t> hittable; // empty when all are
     if (primitives.hittable_count() != primitives.count()) {
         hittable.reserve(primitives.hittable_count());
@@ -47,7 +56,7 @@ BuildReferences gather_references(const BuildInput& input, const Vec3& center,
     const BoxF box = round_outwards(SceneFrame::relative(primitives.bounds(), center));
     const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f},
                      Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
-    const MortonGrid grid(all);
+    const MortonGrid grid(dense_part(all, frame.radius()));
     references.bounds = all;
     const bool exact = center == Vec3(0.0);
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;

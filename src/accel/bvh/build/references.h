@@ -5,6 +5,7 @@
 #include "accel/bvh/build/bounds.h"
 #include "accel/bvh/build/morton.h"
 #include "base/page_array.h"
+#include "ray/scene_frame.h"
 
 #include <cstdint>
 #include <functional>
@@ -13,13 +14,13 @@ namespace raywise {
 
 struct BuildReferences {
     PageArray<BuildItem> items; // id: the primitive; in the order of primitives
-    PageArray<MortonKey> keys;  // codes by a grid over all, one for each item
+    PageArray<MortonKey> keys;  // codes by a grid over most of them, one for each item
     std::uint32_t count = 0;
     Bounds bounds = Bounds::none();
 };
 
-// report: called with numbers of primitives that are done.
-BuildReferences gather_references(const BuildInput& input, const Vec3& center,
+// Boxes are relative to the frame's center, not scaled. report: called with numbers of primitives that are done.
+BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame,
                                   const std::function<void(std::uint64_t)>& report);
 
 } // namespace raywise
