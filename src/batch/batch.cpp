@@ -2,6 +2,7 @@
 
 #include "base/scratch.h"
 #include "batch/ray_window.h"
+#include "model/policy.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,25 +11,6 @@
 
 namespace raywise {
 namespace {
-
-// Each thread gets at least so many rays: waking one for fewer costs more. So twice as many are the first that are not answered on the
-// caller's thread alone.
-constexpr std::uint64_t fewest_rays = 256;
-
-// Rays are put in order where there are so many, and where each takes so long as they come, in nanoseconds of one thread: elsewhere
-// that would cost more than it brings (docs/decisions/0014).
-constexpr std::uint64_t fewest_in_order = 4096; // of a structure that takes one at a time
-constexpr std::uint64_t fewest_in_order_of_many = 16384;
-constexpr double shortest_in_order = 170.0;
-
-// That is told by the first of them: a sixteenth, and at most so many.
-constexpr std::uint64_t most_on_trial = 32768;
-
-// Several blocks for each thread balance uneven work.
-constexpr std::uint64_t blocks_per_thread = 8;
-
-// Rays in a block, where the structure takes one at a time.
-constexpr std::uint64_t single_rays_per_block = 8192;
 
 // What is answered at a time: rays read from the caller's arrays.
 struct RayBlock {
@@ -53,6 +35,7 @@ public:
           rays_(rays),
           parallel_(parallel),
           ordering_(ordering),
+          at_a_time_(tracer.accel().rays_at_a_time()),
           progress_(watch, rays.count, parallel),
           window_(rays, tracer.primitives(), parallel, progress_),
           blocks_(parallel.threads()) {}
@@ -63,13 +46,14 @@ public:
     std::uint64_t run(const Body& body, const AtEnd& at_end) {
         const Clock::time_point start = Clock::now();
         for (std::uint64_t first = 0; first < rays_.count;) {
-            std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, RayWindow::most);
+            std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, ordering_window);
             bool in_order = ordering_ == RayOrdering::always;
-            if (ordering_ == RayOrdering::where_it_pays && count >= fewest_to_order()) {
-                const std::uint64_t on_trial = std::min(count / 16, most_on_trial);
+            const std::uint64_t on_trial =
+                ordering_ == RayOrdering::where_it_pays ? ordering_trial(count, at_a_time_) : 0;
+            if (on_trial > 0) {
                 window_.move_to(first, on_trial, false);
                 run_window(body, true);
-                in_order = ns_per_ray() >= shortest_in_order;
+                in_order = worth_ordering(ns_per_ray());
                 first += on_trial;
                 count -= on_trial;
             }
@@ -96,8 +80,6 @@ private:
         return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
     }
 
-    std::uint64_t fewest_to_order() const { return takes_many(tracer_) ? fewest_in_order_of_many : fewest_in_order; }
-
     template <class Body>
     void answer(RayBlock& block, const Elements& elements, const Body& body) {
         block.scratch.reset();
@@ -114,17 +96,14 @@ private:
     void run_window(const Body& body, bool is_on_trial) {
         const Elements& elements = window_.elements();
         const std::uint64_t count = elements.count();
-        const std::uint64_t most = takes_many(tracer_) ? tracer_.accel().rays_at_a_time() : single_rays_per_block;
-        const std::uint64_t even = (count + parallel_.threads() - 1) / parallel_.threads();
-        const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
+        const std::uint64_t size = batch_block(count, parallel_.threads(), at_a_time_);
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
         for (RayBlock& block : blocks_) {
             block.ns_per_ray.clear();
             if (is_on_trial) block.ns_per_ray.reserve(blocks); // here, where a refusal leaves the outputs alone
         }
-        const std::uint64_t threads = std::clamp<std::uint64_t>(count / fewest_rays, 1, blocks_.size());
-        parallel_.for_each(std::min(threads, blocks), [&](std::uint64_t thread) {
+        parallel_.for_each(batch_threads(count, parallel_.threads()), [&](std::uint64_t thread) {
             RayBlock& block = blocks_[thread];
             for (;;) {
                 progress_.poll();
@@ -157,6 +136,7 @@ private:
     const RayArrays& rays_;
     const Parallel& parallel_;
     const RayOrdering ordering_;
+    const std::size_t at_a_time_;
     BatchProgress progress_;
     RayWindow window_;
     std::vector<RayBlock> blocks_; // of each thread
@@ -228,7 +208,8 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
-        parallel.for_blocks(rays.count, fewest_rays, [&](std::uint64_t begin, std::uint64_t end) {
+        const std::uint64_t block = batch_block(rays.count, parallel.threads(), 1);
+        parallel.for_blocks(rays.count, block, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = begin; i < end; ++i)
                 hits.write({first[i], found[i].size()}, found[i].data(), tracer.primitives());
         });

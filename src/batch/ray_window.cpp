@@ -1,5 +1,7 @@
 #include "batch/ray_window.h"
 
+#include "model/policy.h"
+
 #include <algorithm>
 
 namespace raywise {
@@ -37,7 +39,7 @@ bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
         for (std::size_t k = 1; k < n; ++k) changes += RayKeys::is_near(keys[k], keys[k - 1]) ? 0 : 1;
         looked_at += n;
     }
-    return changes < looked_at / 4;
+    return is_coherent(changes, looked_at);
 }
 
 void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {

@@ -21,9 +21,6 @@ namespace raywise {
 
 class RayWindow {
 public:
-    // The most rays of a window: 80 bytes of memory for each, where they are put in order.
-    static constexpr std::size_t most = std::size_t{1} << 20;
-
     RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel, BatchProgress& progress);
 
     // Moves to rays first ... first + count - 1. In order: as they are best traced; those that come so already, as a camera's do, stay

@@ -1,6 +1,6 @@
 #include "batch/batch.h"
 
-#include "batch/ray_window.h"
+#include "model/policy.h"
 #include "rays.h"
 #include "scene/testing.h"
 
@@ -103,7 +103,7 @@ TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
 
 TEST(Batch, GoesOnAfterAFullWindow) {
     std::vector<Ray> rays = make_chords(1000);
-    const std::size_t count = RayWindow::most + 5000;
+    const std::size_t count = ordering_window + 5000;
     rays.reserve(count);
     while (rays.size() < count) rays.push_back(rays[rays.size() * 7 % 1000]);
     for (const RayOrdering ordering : {RayOrdering::where_it_pays, RayOrdering::always}) {
