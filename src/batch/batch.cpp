@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 namespace raywise {
@@ -20,11 +21,11 @@ struct RayBlock {
     Scratch scratch; // for whatever the block takes
     BlockPace pace;
     std::vector<double> ns_per_ray; // of each of the thread's blocks in a window on trial
+    std::uint64_t invalid = 0;      // of all of the thread's rays, how many held a NaN
 
     std::size_t size() const { return elements.count(); }
+    RayPacket packet() const { return {rays, skips.queries(), size()}; }
 };
-
-bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() > 1; }
 
 // A batch, a window of it after the other, cut into blocks.
 class BlockLoop {
@@ -35,13 +36,13 @@ public:
           rays_(rays),
           parallel_(parallel),
           ordering_(ordering),
-          at_a_time_(tracer.accel().rays_at_a_time()),
+          at_a_time_(tracer.rays_at_a_time()),
           progress_(watch, rays.count, parallel),
           window_(rays, tracer.primitives(), parallel, progress_),
           blocks_(parallel.threads()) {}
 
-    // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, and
-    // notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
+    // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, which
+    // body tells of its block, and notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
     template <class Body, class AtEnd>
     std::uint64_t run(const Body& body, const AtEnd& at_end) {
         const Clock::time_point start = Clock::now();
@@ -65,7 +66,9 @@ public:
         progress_.finish();
         tracer_.usage().rays.fetch_add(rays_.count, std::memory_order_relaxed);
         tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns_since(start)), std::memory_order_relaxed);
-        return window_.invalid();
+        std::uint64_t invalid = 0;
+        for (const RayBlock& block : blocks_) invalid += block.invalid;
+        return invalid;
     }
     template <class Body>
     std::uint64_t run(const Body& body) {
@@ -87,7 +90,7 @@ private:
         block.rays = block.scratch.take<Ray>(block.size());
         window_.read(block.elements, block.rays);
         block.skips.read(rays_.skip, block.elements, tracer_.primitives());
-        body(block);
+        block.invalid += body(block);
     }
 
     // Each thread takes the next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to
@@ -142,59 +145,28 @@ private:
     std::vector<RayBlock> blocks_; // of each thread
 };
 
-// A structure that takes many rays at a time does not look for those with a NaN.
-std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
-    if (takes_many(tracer)) tracer.usage().invalid_rays.fetch_add(invalid, std::memory_order_relaxed);
-    return invalid;
-}
-
-// Hits to `window`, which writes them to `hits`.
-void write_hits(const Tracer& tracer, const RayBlock& block, const PrimitiveHit* found, RayWindow& window,
-                const HitArrays& hits) {
-    constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
-    Hit as_asked[together];
-    for (std::size_t begin = 0; begin < block.size(); begin += together) {
-        const std::size_t n = std::min(together, block.size() - begin);
-        for (std::size_t k = 0; k < n; ++k) {
-            const std::size_t i = begin + k;
-            as_asked[k] = tracer.to_caller(found[i]);
-        }
-        window.write(block.elements.part(begin, n), as_asked, hits);
-    }
-}
-
 } // namespace
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
     BlockLoop loop(tracer, rays, parallel, watch, ordering);
     const auto answer = [&](RayBlock& block) {
-        if (takes_many(tracer)) {
-            auto* const found = block.scratch.take<PrimitiveHit>(block.size());
-            tracer.accel().closest_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
-            write_hits(tracer, block, found, loop.window(), hits);
-        } else {
-            Hit* const found = block.scratch.take<Hit>(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k)
-                found[k] = tracer.closest(block.rays[k], block.skips.query(k));
-            loop.window().write(block.elements, found, hits);
-        }
+        Hit* const found = block.scratch.take<Hit>(block.size());
+        const std::uint64_t invalid = tracer.closest_many(block.packet(), found, block.scratch);
+        loop.window().write(block.elements, found, hits);
+        return invalid;
     };
-    return count_invalid(tracer, loop.run(answer, [&] { loop.window().finish(hits); }));
+    return loop.run(answer, [&] { loop.window().finish(hits); });
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
+    return BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
         bool* const found = block.scratch.take<bool>(block.size());
-        if (takes_many(tracer)) {
-            tracer.accel().any_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
-        } else {
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips.query(k));
-        }
+        const std::uint64_t invalid = tracer.any_many(block.packet(), found, block.scratch);
         occluded.write(block.elements, found);
+        return invalid;
     });
-    return count_invalid(tracer, invalid);
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
@@ -202,8 +174,10 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
                                   const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
     std::vector<std::vector<Hit>> found(rays.count);
     const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
-        for (std::size_t k = 0; k < block.size(); ++k)
-            tracer.all(block.rays[k], found[block.elements[k]], block.skips.query(k));
+        std::vector<std::vector<Hit>> of_block(block.size());
+        const std::uint64_t invalid_of_block = tracer.all_many(block.packet(), of_block.data());
+        for (std::size_t k = 0; k < block.size(); ++k) found[block.elements[k]] = std::move(of_block[k]);
+        return invalid_of_block;
     });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
