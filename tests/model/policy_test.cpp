@@ -68,7 +68,7 @@ TEST(Policy, WakesAThreadForEach256Rays) {
 }
 
 TEST(Policy, CutsABatchIntoABlockForEachThreadOrMore) {
-    EXPECT_EQ(batch_block(1'000'000, 2, 1), 8192u);
+    EXPECT_EQ(batch_block(1'000'000, 2, 1), 2048u);
     EXPECT_EQ(batch_block(1'000'000, 2, 2048), 2048u);
     EXPECT_EQ(batch_block(1'000'000, 2, 64), 64u);
     EXPECT_EQ(batch_block(16'000, 2, 2048), 1000u);
