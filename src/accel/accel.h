@@ -43,7 +43,7 @@ struct BuildInput {
     Progress&
         progress; // report() between larger steps and at least every 100,000 primitives: it is how builds are cancelled
     // So few rays will come that what is made ready for them would take longer than they do; see worth_gathering in
-    // model/cost_functions.h. A structure that can do without may then do so.
+    // model/policy.h. A structure that can do without may then do so.
     bool few_rays = false;
     std::uint64_t memory_limit = 0; // bytes, 0: none; for structures that can do with less
 };

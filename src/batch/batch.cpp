@@ -2,33 +2,16 @@
 
 #include "base/scratch.h"
 #include "batch/ray_window.h"
+#include "model/policy.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 namespace raywise {
 namespace {
-
-// Each thread gets at least so many rays: waking one for fewer costs more. So twice as many are the first that are not answered on the
-// caller's thread alone.
-constexpr std::uint64_t fewest_rays = 256;
-
-// Rays are put in order where there are so many, and where each takes so long as they come, in nanoseconds of one thread: elsewhere
-// that would cost more than it brings (docs/decisions/0014).
-constexpr std::uint64_t fewest_in_order = 4096; // of a structure that takes one at a time
-constexpr std::uint64_t fewest_in_order_of_many = 16384;
-constexpr double shortest_in_order = 170.0;
-
-// That is told by the first of them: a sixteenth, and at most so many.
-constexpr std::uint64_t most_on_trial = 32768;
-
-// Several blocks for each thread balance uneven work.
-constexpr std::uint64_t blocks_per_thread = 8;
-
-// Rays in a block, where the structure takes one at a time.
-constexpr std::uint64_t single_rays_per_block = 8192;
 
 // What is answered at a time: rays read from the caller's arrays.
 struct RayBlock {
@@ -38,11 +21,11 @@ struct RayBlock {
     Scratch scratch; // for whatever the block takes
     BlockPace pace;
     std::vector<double> ns_per_ray; // of each of the thread's blocks in a window on trial
+    std::uint64_t invalid = 0;      // of all of the thread's rays, how many held a NaN
 
     std::size_t size() const { return elements.count(); }
+    RayPacket packet() const { return {rays, skips.queries(), size()}; }
 };
-
-bool takes_many(const Tracer& tracer) { return tracer.accel().rays_at_a_time() > 1; }
 
 // A batch, a window of it after the other, cut into blocks.
 class BlockLoop {
@@ -53,23 +36,25 @@ public:
           rays_(rays),
           parallel_(parallel),
           ordering_(ordering),
+          at_a_time_(tracer.rays_at_a_time()),
           progress_(watch, rays.count, parallel),
           window_(rays, tracer.primitives(), parallel, progress_),
           blocks_(parallel.threads()) {}
 
-    // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, and
-    // notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
+    // Calls body(block) for all rays, on several threads, and at_end() after each window. Returns how many of the rays held a NaN, which
+    // body tells of its block, and notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
     template <class Body, class AtEnd>
     std::uint64_t run(const Body& body, const AtEnd& at_end) {
         const Clock::time_point start = Clock::now();
         for (std::uint64_t first = 0; first < rays_.count;) {
-            std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, RayWindow::most);
+            std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, ordering_window);
             bool in_order = ordering_ == RayOrdering::always;
-            if (ordering_ == RayOrdering::where_it_pays && count >= fewest_to_order()) {
-                const std::uint64_t on_trial = std::min(count / 16, most_on_trial);
+            const std::uint64_t on_trial =
+                ordering_ == RayOrdering::where_it_pays ? ordering_trial(count, at_a_time_) : 0;
+            if (on_trial > 0) {
                 window_.move_to(first, on_trial, false);
                 run_window(body, true);
-                in_order = ns_per_ray() >= shortest_in_order;
+                in_order = worth_ordering(ns_per_ray());
                 first += on_trial;
                 count -= on_trial;
             }
@@ -81,7 +66,9 @@ public:
         progress_.finish();
         tracer_.usage().rays.fetch_add(rays_.count, std::memory_order_relaxed);
         tracer_.usage().batch_ns.fetch_add(static_cast<std::uint64_t>(ns_since(start)), std::memory_order_relaxed);
-        return window_.invalid();
+        std::uint64_t invalid = 0;
+        for (const RayBlock& block : blocks_) invalid += block.invalid;
+        return invalid;
     }
     template <class Body>
     std::uint64_t run(const Body& body) {
@@ -96,8 +83,6 @@ private:
         return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
     }
 
-    std::uint64_t fewest_to_order() const { return takes_many(tracer_) ? fewest_in_order_of_many : fewest_in_order; }
-
     template <class Body>
     void answer(RayBlock& block, const Elements& elements, const Body& body) {
         block.scratch.reset();
@@ -105,7 +90,7 @@ private:
         block.rays = block.scratch.take<Ray>(block.size());
         window_.read(block.elements, block.rays);
         block.skips.read(rays_.skip, block.elements, tracer_.primitives());
-        body(block);
+        block.invalid += body(block);
     }
 
     // Each thread takes the next block that nobody has taken, so that all end at about the same time, and keeps its memory from one to
@@ -114,17 +99,14 @@ private:
     void run_window(const Body& body, bool is_on_trial) {
         const Elements& elements = window_.elements();
         const std::uint64_t count = elements.count();
-        const std::uint64_t most = takes_many(tracer_) ? tracer_.accel().rays_at_a_time() : single_rays_per_block;
-        const std::uint64_t even = (count + parallel_.threads() - 1) / parallel_.threads();
-        const std::uint64_t size = std::clamp(even / blocks_per_thread, fewest_rays, most);
+        const std::uint64_t size = batch_block(count, parallel_.threads(), at_a_time_);
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
         for (RayBlock& block : blocks_) {
             block.ns_per_ray.clear();
             if (is_on_trial) block.ns_per_ray.reserve(blocks); // here, where a refusal leaves the outputs alone
         }
-        const std::uint64_t threads = std::clamp<std::uint64_t>(count / fewest_rays, 1, blocks_.size());
-        parallel_.for_each(std::min(threads, blocks), [&](std::uint64_t thread) {
+        parallel_.for_each(batch_threads(count, parallel_.threads()), [&](std::uint64_t thread) {
             RayBlock& block = blocks_[thread];
             for (;;) {
                 progress_.poll();
@@ -157,31 +139,11 @@ private:
     const RayArrays& rays_;
     const Parallel& parallel_;
     const RayOrdering ordering_;
+    const std::size_t at_a_time_;
     BatchProgress progress_;
     RayWindow window_;
     std::vector<RayBlock> blocks_; // of each thread
 };
-
-// A structure that takes many rays at a time does not look for those with a NaN.
-std::uint64_t count_invalid(const Tracer& tracer, std::uint64_t invalid) {
-    if (takes_many(tracer)) tracer.usage().invalid_rays.fetch_add(invalid, std::memory_order_relaxed);
-    return invalid;
-}
-
-// Hits to `window`, which writes them to `hits`.
-void write_hits(const Tracer& tracer, const RayBlock& block, const PrimitiveHit* found, RayWindow& window,
-                const HitArrays& hits) {
-    constexpr std::size_t together = 64; // few enough to stay at hand between the two loops
-    Hit as_asked[together];
-    for (std::size_t begin = 0; begin < block.size(); begin += together) {
-        const std::size_t n = std::min(together, block.size() - begin);
-        for (std::size_t k = 0; k < n; ++k) {
-            const std::size_t i = begin + k;
-            as_asked[k] = tracer.to_caller(found[i]);
-        }
-        window.write(block.elements.part(begin, n), as_asked, hits);
-    }
-}
 
 } // namespace
 
@@ -189,32 +151,22 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
                               const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
     BlockLoop loop(tracer, rays, parallel, watch, ordering);
     const auto answer = [&](RayBlock& block) {
-        if (takes_many(tracer)) {
-            auto* const found = block.scratch.take<PrimitiveHit>(block.size());
-            tracer.accel().closest_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
-            write_hits(tracer, block, found, loop.window(), hits);
-        } else {
-            Hit* const found = block.scratch.take<Hit>(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k)
-                found[k] = tracer.closest(block.rays[k], block.skips.query(k));
-            loop.window().write(block.elements, found, hits);
-        }
+        Hit* const found = block.scratch.take<Hit>(block.size());
+        const std::uint64_t invalid = tracer.closest_many(block.packet(), found, block.scratch);
+        loop.window().write(block.elements, found, hits);
+        return invalid;
     };
-    return count_invalid(tracer, loop.run(answer, [&] { loop.window().finish(hits); }));
+    return loop.run(answer, [&] { loop.window().finish(hits); });
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
-    const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
+    return BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
         bool* const found = block.scratch.take<bool>(block.size());
-        if (takes_many(tracer)) {
-            tracer.accel().any_many({block.rays, block.skips.queries(), block.size()}, found, block.scratch);
-        } else {
-            for (std::size_t k = 0; k < block.size(); ++k) found[k] = tracer.any(block.rays[k], block.skips.query(k));
-        }
+        const std::uint64_t invalid = tracer.any_many(block.packet(), found, block.scratch);
         occluded.write(block.elements, found);
+        return invalid;
     });
-    return count_invalid(tracer, invalid);
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
@@ -222,13 +174,16 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
                                   const Parallel& parallel, const BatchWatch& watch, RayOrdering ordering) {
     std::vector<std::vector<Hit>> found(rays.count);
     const std::uint64_t invalid = BlockLoop(tracer, rays, parallel, watch, ordering).run([&](RayBlock& block) {
-        for (std::size_t k = 0; k < block.size(); ++k)
-            tracer.all(block.rays[k], found[block.elements[k]], block.skips.query(k));
+        std::vector<std::vector<Hit>> of_block(block.size());
+        const std::uint64_t invalid_of_block = tracer.all_many(block.packet(), of_block.data());
+        for (std::size_t k = 0; k < block.size(); ++k) found[block.elements[k]] = std::move(of_block[k]);
+        return invalid_of_block;
     });
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {
-        parallel.for_blocks(rays.count, fewest_rays, [&](std::uint64_t begin, std::uint64_t end) {
+        const std::uint64_t block = batch_block(rays.count, parallel.threads(), 1);
+        parallel.for_blocks(rays.count, block, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = begin; i < end; ++i)
                 hits.write({first[i], found[i].size()}, found[i].data(), tracer.primitives());
         });

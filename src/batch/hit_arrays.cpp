@@ -55,14 +55,14 @@ void OutputArray::write(const Elements& elements, const bool* flags) const {
 }
 
 void HitArrays::write(const Elements& elements, const Hit* hits, const Primitives& primitives) const {
-    write_found(elements, hits);
-    if (!normal.wanted()) return;
-    constexpr std::size_t together = 64;
+    constexpr std::size_t together = 64; // few enough to stay at hand from one field to the next
     Vec3 normals[together];
     for (std::size_t begin = 0; begin < elements.count(); begin += together) {
-        const std::size_t n = std::min(together, elements.count() - begin);
-        for (std::size_t k = 0; k < n; ++k) normals[k] = normal_of(hits[begin + k], primitives);
-        write_normals(elements.part(begin, n), normals);
+        const Elements part = elements.part(begin, std::min(together, elements.count() - begin));
+        write_found(part, hits + begin);
+        if (!normal.wanted()) continue;
+        for (std::size_t k = 0; k < part.count(); ++k) normals[k] = normal_of(hits[begin + k], primitives);
+        write_normals(part, normals);
     }
 }
 

@@ -1,6 +1,5 @@
 #include "batch/ray_arrays.h"
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -47,24 +46,13 @@ void read_numbers(const StridedArray& array, const Elements& elements, double ab
     });
 }
 
-// A NaN makes the sum one; so may infinities, and the interval often ends at one.
-bool may_have_nan(const Ray& ray) {
-    const Vec3 sum = ray.origin + ray.direction;
-    return std::isnan(sum.x + sum.y + sum.z) || std::isnan(ray.tmin) || std::isnan(ray.tmax);
-}
-
 } // namespace
 
-std::uint64_t RayArrays::read(const Elements& elements, Ray* rays) const {
+void RayArrays::read(const Elements& elements, Ray* rays) const {
     read_vectors(origin, elements, &Ray::origin, rays);
     read_vectors(direction, elements, &Ray::direction, rays);
     read_numbers(tmin, elements, 0.0, &Ray::tmin, rays);
     read_numbers(tmax, elements, std::numeric_limits<double>::infinity(), &Ray::tmax, rays);
-    std::uint64_t invalid = 0;
-    for (std::size_t k = 0; k < elements.count(); ++k) {
-        if (may_have_nan(rays[k])) invalid += rays[k].has_nan() ? 1 : 0;
-    }
-    return invalid;
 }
 
 } // namespace raywise

@@ -19,8 +19,7 @@ struct RayArrays {
     StridedArray tmax; // data null: infinity
     SkipArrays skip;
 
-    // Returns how many of the rays hold a NaN.
-    std::uint64_t read(const Elements& elements, Ray* rays) const;
+    void read(const Elements& elements, Ray* rays) const;
 };
 
 } // namespace raywise

@@ -1,6 +1,7 @@
 #include "batch/ray_order.h"
 
-#include <algorithm>
+#include "model/policy.h"
+
 #include <utility>
 
 namespace raywise {
@@ -16,8 +17,7 @@ std::uint32_t* RayOrder::keys(std::size_t count) {
 }
 
 void RayOrder::divide() {
-    constexpr std::size_t smallest = 16384; // fewer rays are not worth a thread
-    parts_.resize(std::clamp<std::size_t>(count_ / smallest, 1, parallel_.threads()));
+    parts_.resize(ordering_threads(count_, parallel_.threads()));
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         parts_[i].begin = count_ * i / parts_.size();
         parts_[i].end = count_ * (i + 1) / parts_.size();

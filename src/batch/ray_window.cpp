@@ -1,5 +1,7 @@
 #include "batch/ray_window.h"
 
+#include "model/policy.h"
+
 #include <algorithm>
 
 namespace raywise {
@@ -37,7 +39,7 @@ bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
         for (std::size_t k = 1; k < n; ++k) changes += RayKeys::is_near(keys[k], keys[k - 1]) ? 0 : 1;
         looked_at += n;
     }
-    return changes < looked_at / 4;
+    return is_coherent(changes, looked_at);
 }
 
 void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
@@ -46,15 +48,13 @@ void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
     parallel_.for_blocks(count, 16 * together, [&](std::uint64_t block_begin, std::uint64_t block_end) {
         Ray rays[together];
         std::uint32_t keys[together];
-        std::uint64_t invalid = 0;
         for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
             progress_.poll();
-            invalid += rays_.read({first + begin, n}, rays);
+            rays_.read({first + begin, n}, rays);
             keys_.of(rays, n, keys);
             std::copy_n(keys, n, all_keys + begin);
             for (std::size_t k = 0; k < n; ++k) slots_[begin + k].put(rays[k]);
         });
-        invalid_.fetch_add(invalid, std::memory_order_relaxed);
     });
 }
 
@@ -71,7 +71,7 @@ void RayWindow::move_to(std::uint64_t first, std::size_t count, bool in_order) {
 
 void RayWindow::read(const Elements& part, Ray* rays) {
     if (!has_slots_) {
-        invalid_.fetch_add(rays_.read(part, rays), std::memory_order_relaxed);
+        rays_.read(part, rays);
         return;
     }
     for (std::size_t k = 0; k < part.count(); ++k) rays[k] = slots_[slot(part, k)].get<Ray>();

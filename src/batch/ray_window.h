@@ -10,7 +10,6 @@
 #include "batch/ray_arrays.h"
 #include "batch/ray_order.h"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,9 +20,6 @@ namespace raywise {
 
 class RayWindow {
 public:
-    // The most rays of a window: 80 bytes of memory for each, where they are put in order.
-    static constexpr std::size_t most = std::size_t{1} << 20;
-
     RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel, BatchProgress& progress);
 
     // Moves to rays first ... first + count - 1. In order: as they are best traced; those that come so already, as a camera's do, stay
@@ -37,9 +33,6 @@ public:
     void write(const Elements& part, const Hit* found, const HitArrays& hits);
     // When all have been written.
     void finish(const HitArrays& hits) const;
-
-    // How many of the rays that were read held a NaN.
-    std::uint64_t invalid() const { return invalid_.load(); }
 
 private:
     // A ray, until its answer is there.
@@ -77,7 +70,6 @@ private:
     std::uint64_t first_ = 0;
     bool has_slots_ = false;
     Elements elements_{0, 0};
-    std::atomic<std::uint64_t> invalid_{0};
 };
 
 } // namespace raywise

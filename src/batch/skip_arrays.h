@@ -53,7 +53,6 @@ public:
     void read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives);
 
     const Query* queries() const { return queries_.empty() ? nullptr : queries_.data(); } // null: none skips anything
-    Query query(std::size_t ray) const { return queries_.empty() ? Query{} : queries_[ray]; }
 
 private:
     std::vector<std::uint32_t> numbers_;

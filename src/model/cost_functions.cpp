@@ -1,5 +1,7 @@
 #include "model/cost_functions.h"
 
+#include "model/policy.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -47,12 +49,6 @@ static_assert(is_complete(), "one line per structure of structure_list.def, in i
 
 const CostFunctions& functions_of(Structure structure) { return table[static_cast<std::size_t>(structure)]; }
 
-// Rays. Gathering takes 2 to 12 ns per triangle, most of it for the memory; a ray over gathered triangles then takes 0.6 to 1.6 ns per
-// triangle less than one that reads the caller's arrays. The break-even lies between 3 rays (soup of a million triangles) and 12
-// (terrain of a million), at 4 to 7 for smaller scenes. Measured with a loop over scenes of calibration/scenes from 1,000 to a million
-// triangles on an Intel Xeon with AVX-512 (family 6, model 207), 2026-11-26: docs/decisions/0012-linear-scan.md.
-constexpr std::uint64_t gathering_pays_from = 8;
-
 } // namespace
 
 double build_unit(Structure structure, double triangles) { return functions_of(structure).build.of(triangles); }
@@ -60,8 +56,6 @@ double ray_unit(Structure structure, double triangles) { return functions_of(str
 const char* build_unit_name(Structure structure) { return functions_of(structure).build.name; }
 const char* ray_unit_name(Structure structure) { return functions_of(structure).ray.name; }
 bool needs_view(Structure structure) { return functions_of(structure).needs_view; }
-
-bool worth_gathering(const Workload& workload) { return !workload.rays || *workload.rays >= gathering_pays_from; }
 
 Cost scan_in_place(const MachineConstants& constants, const Cost& gathered) {
     const StructureConstants& lines = constants.structures[Structure::linear_scan];

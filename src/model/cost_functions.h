@@ -26,9 +26,6 @@ const char* ray_unit_name(Structure structure);
 // Whether the structure needs a view to differ from another candidate; without one it is no candidate.
 bool needs_view(Structure structure);
 
-// Whether so many rays pay for what a linear scan makes ready for them, the triangles in blocks. Fewer read the caller's arrays.
-bool worth_gathering(const Workload& workload);
-
 // The same scan when it reads the caller's arrays: it builds nothing, and each ray gathers the triangles on its way.
 Cost scan_in_place(const MachineConstants& constants, const Cost& gathered);
 

@@ -1,5 +1,6 @@
 #include "scene/planner.h"
 
+#include "model/policy.h"
 #include "scene/sample_rays.h"
 
 #include <algorithm>
@@ -14,24 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 double ns_since(Clock::time_point start) {
     return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
-
-// One structure's sample is timed for no longer than this: on a large mesh a linear scan would take minutes for it.
-constexpr double sample_time_limit_ns = 50e6;
-
-// Scenes of fewer triangles are built on the caller's thread: that takes 0.1 ms (a kd_tree 3), and what could be shared of it is over
-// before another thread is awake.
-constexpr std::uint64_t fewest_for_threads = 1024;
-
-// How many times what it did when it was built a refitted tree may cost where nobody knows how many rays are coming. Twice the cost is
-// about twice the time of a ray, and 10^6 rays of 0.5 us each, twice as slow, take what building 10^6 triangles at 0.3 us and the
-// refit that was in vain do.
-constexpr double refit_limit_without_count = 2.0;
-
-// Where they are counted: the cost at which what the rays lose is what building takes.
-double refit_limit(const Cost& predicted, const std::optional<std::uint64_t>& rays) {
-    if (!rays) return refit_limit_without_count;
-    return 1.0 + predicted.build_ns / (static_cast<double>(*rays) * predicted.ray_ns);
 }
 
 // Builds and times candidates, and keeps the one structure that will be used.
@@ -154,7 +137,7 @@ private:
     // fewer or far more primitives can be hit, or what was chosen does not fit the memory limit any more.
     bool take_moved(const PlanBefore& before) {
         const std::uint64_t now = request_.primitives->hittable_count();
-        if (!request_.forced && (now > 2 * before.hittable_count || before.hittable_count > 2 * now)) {
+        if (!request_.forced && !choice_holds(before.hittable_count, now)) {
             plan_.refit = RefitReport{0, 1.0, "the number of triangles that can be hit has changed"};
             return false;
         }
@@ -334,8 +317,8 @@ private:
 } // namespace
 
 PlannedAccel plan_and_build(const PlanRequest& request, const Parallel& parallel, Progress& progress) {
-    const bool is_small = request.primitives->count() < fewest_for_threads;
-    const Parallel used = is_small ? parallel.without_own_threads() : parallel;
+    const bool on_threads = worth_build_threads(request.primitives->count());
+    const Parallel used = on_threads ? parallel : parallel.without_own_threads();
     return Planner(request, used, progress).run();
 }
 

@@ -1,4 +1,4 @@
-// Geometry with a built structure: answers one ray.
+// Geometry with a built structure: answers rays, one or many, and counts those with a NaN.
 #pragma once
 
 #include "accel/accel.h"
@@ -55,7 +55,15 @@ public:
         return found;
     }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
-    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const;
+    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const {
+        all_many({&ray, &query, 1}, &hits);
+    }
+
+    // The same for many rays, answer i that of ray i. Each returns how many of the rays hold a NaN.
+    std::uint64_t closest_many(const RayPacket& rays, Hit* hits, Scratch& scratch) const;
+    std::uint64_t any_many(const RayPacket& rays, bool* found, Scratch& scratch) const;
+    std::uint64_t all_many(const RayPacket& rays, std::vector<Hit>* hits) const;
+    std::size_t rays_at_a_time() const { return accel_->rays_at_a_time(); }
 
     const Primitives& primitives() const { return *primitives_; }
     const std::shared_ptr<const Primitives>& shared_primitives() const { return primitives_; }
@@ -63,6 +71,7 @@ public:
     const std::shared_ptr<const Accel>& shared_accel() const { return accel_; }
     Usage& usage() const { return *usage_; }
 
+private:
     // What a structure answers, as the caller sees it.
     Hit to_caller(const PrimitiveHit& hit) const {
         if (!hit.is_hit()) return {};
@@ -70,10 +79,13 @@ public:
         return {hit.t, hit.u, hit.v, invalid_id, id.geometry, id.primitive};
     }
 
-private:
-    void count_invalid(const Ray& ray) const {
-        if (ray.may_have_nan() && ray.has_nan()) usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+    // 1 for a ray with a NaN, which hits nothing.
+    std::uint64_t count_invalid(const Ray& ray) const {
+        if (!ray.may_have_nan() || !ray.has_nan()) return 0;
+        usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
+        return 1;
     }
+    std::uint64_t count_invalid(const RayPacket& rays) const;
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;

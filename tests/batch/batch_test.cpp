@@ -1,6 +1,6 @@
 #include "batch/batch.h"
 
-#include "batch/ray_window.h"
+#include "model/policy.h"
 #include "rays.h"
 #include "scene/testing.h"
 
@@ -62,9 +62,11 @@ TEST(Batch, GivesTheBitsOfSingleRaysByEveryStructureOnAnyNumberOfThreads) {
             for (const RayOrdering ordering : orderings) {
                 for (const unsigned threads : {1u, 2u, 5u}) {
                     std::vector<Record> records(rays.size());
+                    const std::uint64_t invalid_before = forced->tracer().usage().invalid_rays;
                     EXPECT_EQ(intersect_batch(forced->tracer(), arrays_of(rays), outputs(records), Parallel(threads),
                                               {}, ordering),
                               count / 10);
+                    EXPECT_EQ(forced->tracer().usage().invalid_rays - invalid_before, count / 10);
                     for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(is_hit_of(records[i], expected[i])) << i;
                 }
             }
@@ -103,7 +105,7 @@ TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
 
 TEST(Batch, GoesOnAfterAFullWindow) {
     std::vector<Ray> rays = make_chords(1000);
-    const std::size_t count = RayWindow::most + 5000;
+    const std::size_t count = ordering_window + 5000;
     rays.reserve(count);
     while (rays.size() < count) rays.push_back(rays[rays.size() * 7 % 1000]);
     for (const RayOrdering ordering : {RayOrdering::where_it_pays, RayOrdering::always}) {
@@ -151,8 +153,9 @@ TEST(Batch, FindsAllHitsInOrder) {
         const std::vector<Ray> rays = rays_with_faults(300);
         std::vector<std::uint64_t> offsets(rays.size() + 1);
         std::uint64_t needed = 0;
-        intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2), {},
-                            ordering);
+        EXPECT_EQ(intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2),
+                                      {}, ordering),
+                  rays.size() / 10);
         ASSERT_GT(needed, 0u);
         EXPECT_EQ(offsets.back(), needed);
         std::vector<Record> records(needed);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -81,20 +80,6 @@ TEST(RayWindow, LeavesRaysOfACameraInTheirOrder) {
     RayWindow window(arrays, primitives, parallel, progress);
     window.move_to(0, rays.size(), true);
     EXPECT_TRUE(is_in_callers_order(window.elements()));
-}
-
-TEST(RayWindow, CountsRaysWithANaNOnce) {
-    std::vector<Ray> rays = random_rays(10000, 5);
-    for (std::size_t i = 0; i < rays.size(); i += 10) rays[i].direction.z = std::nan("");
-    const RayArrays arrays = arrays_of(rays);
-    const Parallel parallel(2);
-    for (const bool in_order : {false, true}) {
-        BatchProgress progress(unwatched, rays.size(), parallel);
-        RayWindow window(arrays, primitives, parallel, progress);
-        window.move_to(0, rays.size(), in_order);
-        expect_all_of(window, rays, 0, rays.size());
-        EXPECT_EQ(window.invalid(), 1000u);
-    }
 }
 
 TEST(RayWindow, WritesHitsToTheirRays) {

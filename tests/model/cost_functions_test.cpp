@@ -104,13 +104,11 @@ TEST(Predict, HasFewRaysScanInPlace) {
     features.triangles = 1000;
     for (const std::optional<std::uint64_t> rays :
          {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1000)}) {
-        EXPECT_TRUE(worth_gathering({rays, RayKind::any}));
         const Cost cost = predict(Structure::linear_scan, constants, features, {rays, RayKind::any});
         EXPECT_DOUBLE_EQ(cost.build_ns, 4100);
         EXPECT_DOUBLE_EQ(cost.ray_ns, 550);
         EXPECT_DOUBLE_EQ(cost.bytes, 36120);
     }
-    EXPECT_FALSE(worth_gathering({1, RayKind::any}));
     const Cost cost = predict(Structure::linear_scan, constants, features, {1, RayKind::any});
     EXPECT_DOUBLE_EQ(cost.build_ns, 100);
     EXPECT_DOUBLE_EQ(cost.ray_ns, 4550);

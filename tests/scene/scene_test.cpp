@@ -91,6 +91,42 @@ TEST(Scene, WithoutTrianglesMissesEverything) {
     }
 }
 
+TEST(Scene, AnswersManyRaysAsItDoesEach) {
+    std::vector<Ray> rays = make_chords(300);
+    for (std::size_t i = 0; i < rays.size(); i += 3) rays[i].tmax = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 1; i < rays.size(); i += 30) rays[i].direction = Vec3(0.0);
+    for (const Structure structure : all_structures()) {
+        SCOPED_TRACE(name_of(structure));
+        const auto scene = make_scene(make_soup(500), generic(), [&](Scene& s) { s.set_structure(structure); });
+        const Tracer& tracer = scene->tracer();
+        std::vector<std::uint32_t> skipped;
+        for (const Ray& ray : rays) skipped.push_back(tracer.closest(ray).primitive);
+        std::vector<Query> queries;
+        for (const std::uint32_t& primitive : skipped)
+            queries.push_back({{&primitive, primitive == invalid_id ? &primitive : &primitive + 1}});
+        for (const bool skips : {false, true}) {
+            const RayPacket packet{rays.data(), skips ? queries.data() : nullptr, rays.size()};
+            const std::uint64_t before = tracer.usage().invalid_rays;
+            Scratch scratch;
+            auto* const closest = scratch.take<Hit>(rays.size());
+            auto* const any = scratch.take<bool>(rays.size());
+            std::vector<std::vector<Hit>> all(rays.size(), std::vector<Hit>(2)); // replaced
+            EXPECT_EQ(tracer.closest_many(packet, closest, scratch), 100u);
+            EXPECT_EQ(tracer.any_many(packet, any, scratch), 100u);
+            EXPECT_EQ(tracer.all_many(packet, all.data()), 100u);
+            EXPECT_EQ(tracer.usage().invalid_rays - before, 300u);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                EXPECT_TRUE(same_bits(closest[i], tracer.closest(rays[i], packet.query(i)))) << i;
+                EXPECT_EQ(any[i], tracer.any(rays[i], packet.query(i))) << i;
+                std::vector<Hit> expected;
+                tracer.all(rays[i], expected, packet.query(i));
+                ASSERT_EQ(all[i].size(), expected.size()) << i;
+                for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_TRUE(same_bits(all[i][k], expected[k])) << i;
+            }
+        }
+    }
+}
+
 TEST(Scene, CountsRaysWithANan) {
     const auto scene = make_scene(make_soup(10), generic());
     Ray ray;
@@ -98,7 +134,10 @@ TEST(Scene, CountsRaysWithANan) {
     ray.origin.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(scene->tracer().closest(ray).primitive, invalid_id);
     EXPECT_FALSE(scene->tracer().any(ray));
-    EXPECT_EQ(scene->tracer().usage().invalid_rays.load(), 2u);
+    std::vector<Hit> hits;
+    scene->tracer().all(ray, hits);
+    EXPECT_TRUE(hits.empty());
+    EXPECT_EQ(scene->tracer().usage().invalid_rays.load(), 3u);
 }
 
 TEST(Scene, NamesMeshAndTriangleOfAHit) {

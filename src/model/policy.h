@@ -1,0 +1,55 @@
+// When a way of working pays: the thresholds of builds and batches, each with its measurement. They cost time, never an answer. Which structure
+// is chosen is decided in decide.h.
+#pragma once
+
+#include "model/cost_functions.h"
+#include "model/workload.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace raywise {
+
+// Builds.
+
+// Whether so many rays pay for what a linear scan makes ready for them, the triangles in blocks. Fewer read the caller's arrays.
+bool worth_gathering(const Workload& workload);
+
+// Whether a build of so many primitives is shared among the library's own threads.
+bool worth_build_threads(std::uint64_t primitives);
+
+// One structure's sample is timed for no longer than this: on a large mesh a linear scan would take minutes for it.
+inline constexpr double sample_time_limit_ns = 50e6;
+
+// Whether what was chosen for `before` hittable primitives is kept where they have become `now`.
+bool choice_holds(std::uint64_t before, std::uint64_t now);
+
+// How many times what it did when it was built a refitted tree may cost; beyond that building anew pays.
+double refit_limit(const Cost& predicted, const std::optional<std::uint64_t>& rays);
+
+// Batches. threads: as many as there may be. at_a_time: how many rays the structure would like to get together; 1: none.
+
+// How many threads trace so many rays; at least 1.
+unsigned batch_threads(std::uint64_t rays, unsigned threads);
+
+// How many rays one thread takes at a time. There are at least as many blocks as batch_threads().
+std::uint64_t batch_block(std::uint64_t rays, unsigned threads, std::size_t at_a_time);
+
+// The most rays that are put in order together, for 80 bytes of memory each. Windows of a quarter of a million made rays in random order 5 to
+// 20 % slower: docs/decisions/0014-batches-in-order.md.
+inline constexpr std::size_t ordering_window = std::size_t{1} << 20;
+
+// How many of a window's rays are traced as they come, to tell whether ordering the others pays; 0: it does not for so few.
+std::uint64_t ordering_trial(std::uint64_t rays, std::size_t at_a_time);
+
+// Whether rays that take so long each as they come, in nanoseconds of one thread, are put in order.
+bool worth_ordering(double ns_per_ray);
+
+// Whether rays of which so many are in another cell or octant than the one before are in order already.
+bool is_coherent(std::size_t changes, std::size_t rays);
+
+// How many threads sort so many rays; at least 1.
+unsigned ordering_threads(std::uint64_t rays, unsigned threads);
+
+} // namespace raywise

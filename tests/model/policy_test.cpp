@@ -1,0 +1,123 @@
+#include "model/policy.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace raywise {
+namespace {
+
+// What lies around the thresholds and far beyond them.
+std::vector<std::uint64_t> counts() {
+    std::vector<std::uint64_t> result = {1, 2, 3};
+    for (std::uint64_t power = 4; power <= std::uint64_t{1} << 32; power *= 2)
+        result.insert(result.end(), {power - 1, power, power + 1});
+    return result;
+}
+
+TEST(Policy, GathersFromEightRaysOnAndWhenTheirNumberIsNotKnown) {
+    EXPECT_FALSE(worth_gathering({1, RayKind::any}));
+    EXPECT_FALSE(worth_gathering({7, RayKind::any}));
+    EXPECT_TRUE(worth_gathering({8, RayKind::any}));
+    EXPECT_TRUE(worth_gathering({std::nullopt, RayKind::any}));
+}
+
+TEST(Policy, BuildsSmallScenesOnTheCallersThread) {
+    EXPECT_FALSE(worth_build_threads(0));
+    EXPECT_FALSE(worth_build_threads(1023));
+    EXPECT_TRUE(worth_build_threads(1024));
+}
+
+TEST(Policy, KeepsAChoiceForTwiceOrHalfThePrimitives) {
+    EXPECT_TRUE(choice_holds(0, 0));
+    EXPECT_FALSE(choice_holds(0, 1));
+    EXPECT_FALSE(choice_holds(1, 0));
+    for (const std::uint64_t n : counts()) {
+        EXPECT_TRUE(choice_holds(n, 2 * n));
+        EXPECT_TRUE(choice_holds(2 * n, n));
+        EXPECT_FALSE(choice_holds(n, 2 * n + 1));
+        EXPECT_FALSE(choice_holds(2 * n + 1, n));
+    }
+}
+
+TEST(Policy, RefitsAsLongAsWhatRaysLoseIsLessThanABuild) {
+    Cost predicted;
+    predicted.build_ns = 1e6;
+    predicted.ray_ns = 100;
+    EXPECT_EQ(refit_limit(predicted, std::nullopt), 2.0);
+    EXPECT_EQ(refit_limit(predicted, 10'000), 2.0);
+    EXPECT_EQ(refit_limit(predicted, 40'000), 1.25);
+    double before = std::numeric_limits<double>::infinity();
+    for (const std::uint64_t rays : counts()) {
+        const double limit = refit_limit(predicted, rays);
+        EXPECT_GT(limit, 1.0);
+        EXPECT_LE(limit, before);
+        before = limit;
+    }
+}
+
+TEST(Policy, WakesAThreadForEach256Rays) {
+    EXPECT_EQ(batch_threads(1, 8), 1u);
+    EXPECT_EQ(batch_threads(511, 8), 1u);
+    EXPECT_EQ(batch_threads(512, 8), 2u);
+    EXPECT_EQ(batch_threads(1'000'000, 8), 8u);
+    EXPECT_EQ(batch_threads(1'000'000, 1), 1u);
+}
+
+TEST(Policy, CutsABatchIntoABlockForEachThreadOrMore) {
+    EXPECT_EQ(batch_block(1'000'000, 2, 1), 2048u);
+    EXPECT_EQ(batch_block(1'000'000, 2, 2048), 2048u);
+    EXPECT_EQ(batch_block(1'000'000, 2, 64), 64u);
+    EXPECT_EQ(batch_block(16'000, 2, 2048), 1000u);
+    EXPECT_EQ(batch_block(100, 2, 2048), 256u);
+    for (const unsigned threads : {1u, 2u, 5u, 128u}) {
+        for (const std::size_t at_a_time : {1u, 64u, 2048u}) {
+            std::uint64_t before = 0;
+            for (const std::uint64_t rays : counts()) {
+                const std::uint64_t block = batch_block(rays, threads, at_a_time);
+                EXPECT_GE(block, before);
+                EXPECT_GE((rays + block - 1) / block, batch_threads(rays, threads)) << rays << " " << threads;
+                before = block;
+            }
+        }
+    }
+}
+
+TEST(Policy, TriesASixteenthOfTheRaysBeforeOrderingTheOthers) {
+    EXPECT_EQ(ordering_trial(4095, 1), 0u);
+    EXPECT_EQ(ordering_trial(4096, 1), 256u);
+    EXPECT_EQ(ordering_trial(16'383, 2048), 0u);
+    EXPECT_EQ(ordering_trial(16'384, 2048), 1024u);
+    EXPECT_EQ(ordering_trial(ordering_window, 2048), 32'768u);
+    for (const std::size_t at_a_time : {1u, 64u, 2048u}) {
+        std::uint64_t before = 0;
+        for (const std::uint64_t rays : counts()) {
+            const std::uint64_t trial = ordering_trial(rays, at_a_time);
+            EXPECT_GE(trial, before);
+            EXPECT_LT(trial, rays);
+            before = trial;
+        }
+    }
+}
+
+TEST(Policy, OrdersSlowRaysThatComeInNoOrder) {
+    EXPECT_FALSE(worth_ordering(169.9));
+    EXPECT_TRUE(worth_ordering(170.0));
+    EXPECT_TRUE(is_coherent(0, 100));
+    EXPECT_TRUE(is_coherent(24, 100));
+    EXPECT_FALSE(is_coherent(25, 100));
+    EXPECT_FALSE(is_coherent(100, 100));
+}
+
+TEST(Policy, SortsOnAThreadForEach16384Rays) {
+    EXPECT_EQ(ordering_threads(1, 8), 1u);
+    EXPECT_EQ(ordering_threads(32'767, 8), 1u);
+    EXPECT_EQ(ordering_threads(32'768, 8), 2u);
+    EXPECT_EQ(ordering_threads(ordering_window, 8), 8u);
+}
+
+} // namespace
+} // namespace raywise
