@@ -105,22 +105,17 @@ void for_each_mesh(const rw_triangles* meshes, std::uint32_t mesh_count, const V
 }
 RayArrays read_rays(const rw_rays* rays, const char* name);
 HitArrays read_hits(const rw_hits* hits, std::uint64_t count);
-// The caller's memory, seen as the library's own struct, which has the same members: eight float64 both. Not a copy, because loading
+// The caller's memory, seen as the library's own struct, which has the same members: eight numbers both. Not a copy, because loading
 // 32 bytes that were just stored as two times 16 takes as long as waiting for the stores to end.
-inline const Ray& read_ray(const rw_ray* source) {
-    static_assert(sizeof(Ray) == sizeof(rw_ray) && alignof(Ray) == alignof(rw_ray) &&
-                  offsetof(Ray, tmin) == offsetof(rw_ray, tmin) &&
-                  offsetof(Ray, direction) == offsetof(rw_ray, direction) &&
-                  offsetof(Ray, tmax) == offsetof(rw_ray, tmax));
-    return reinterpret_cast<const Ray&>(required(source, "ray"));
+template <class To, class From>
+const To& read_ray_as(const From* source) {
+    static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From) &&
+                  offsetof(To, tmin) == offsetof(From, tmin) && offsetof(To, direction) == offsetof(From, direction) &&
+                  offsetof(To, tmax) == offsetof(From, tmax));
+    return reinterpret_cast<const To&>(required(source, "ray"));
 }
-inline Ray read_ray(const rw_ray_f32* source) {
-    const rw_ray_f32& ray = required(source, "ray");
-    return {{ray.origin[0], ray.origin[1], ray.origin[2]},
-            ray.tmin,
-            {ray.direction[0], ray.direction[1], ray.direction[2]},
-            ray.tmax};
-}
+inline const Ray& read_ray(const rw_ray* source) { return read_ray_as<Ray>(source); }
+inline const RayF& read_ray(const rw_ray_f32* source) { return read_ray_as<RayF>(source); }
 // The numbers of what the ray skips, in the caller's order.
 std::vector<std::uint32_t> read_skips(const rw_ray_options& options, const Primitives& primitives);
 // The number of the primitive with those ids; errors name where[index].

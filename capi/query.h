@@ -1,4 +1,5 @@
-// The questions to a Tracer. Single rays come in two precisions and are answered in one: float32 is widened, and the answers are rounded.
+// The questions to a Tracer. Single rays come in two precisions and are answered in one: float32
+// counts as float64, and the answers are rounded.
 #pragma once
 
 #include "convert.h"
@@ -16,25 +17,25 @@ Error over_capacity(std::uint64_t needed, std::uint64_t capacity);
 
 template <class CallersRay, class CallersHit>
 void intersect(const Tracer& tracer, const CallersRay* ray, const rw_ray_options* options, CallersHit* hit) {
-    const Ray& r = read_ray(ray);
+    const auto& r = read_ray(ray);
     CallersHit& out = required(hit, "hit");
-    write_hit(options == nullptr ? tracer.closest(r) : closest_with(tracer, r, *options), out);
+    write_hit(options == nullptr ? tracer.closest(r) : closest_with(tracer, widened(r), *options), out);
 }
 
 template <class CallersRay>
 void occluded(const Tracer& tracer, const CallersRay* ray, const rw_ray_options* options, std::int32_t* answer) {
-    const Ray& r = read_ray(ray);
+    const auto& r = read_ray(ray);
     std::int32_t& out = required(answer, "occluded");
-    out = (options == nullptr ? tracer.any(r) : any_with(tracer, r, *options)) ? 1 : 0;
+    out = (options == nullptr ? tracer.any(r) : any_with(tracer, widened(r), *options)) ? 1 : 0;
 }
 
 template <class CallersRay, class CallersHit>
 void intersect_all(const Tracer& tracer, const CallersRay* ray, const rw_ray_options* options, CallersHit* hits,
                    std::uint64_t capacity, std::uint64_t* needed) {
-    const Ray& r = read_ray(ray);
+    const auto& r = read_ray(ray);
     std::uint64_t& count = required(needed, "needed");
     if (hits == nullptr && capacity > 0) throw null_argument("hits");
-    const std::vector<Hit> found = all_with(tracer, r, options);
+    const std::vector<Hit> found = all_with(tracer, widened(r), options);
     count = found.size();
     for (std::size_t i = 0; i < std::min<std::uint64_t>(capacity, found.size()); ++i) write_hit(found[i], hits[i]);
     if (hits != nullptr && found.size() > capacity) throw over_capacity(found.size(), capacity);

@@ -79,6 +79,9 @@ public:
     // The first hit in the order of PrimitiveHit, or no hit.
     virtual PrimitiveHit closest(const Ray& ray, const Query& query) const = 0;
     virtual bool any(const Ray& ray, const Query& query) const = 0;
+    // The same for a ray of float32, which is not worth being widened on the way for whoever widens it in registers.
+    virtual PrimitiveHit closest_f32(const RayF& ray, const Query& query) const { return closest(widened(ray), query); }
+    virtual bool any_f32(const RayF& ray, const Query& query) const { return any(widened(ray), query); }
     // Every hit once, appended in any order.
     virtual void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const = 0;
 

@@ -21,17 +21,21 @@ class ClosestCollector {
 public:
     static constexpr bool wants_nearest_first = true;
 
-    ClosestCollector(const Ray& ray, const Query& query) : query_(&query), limit_(ray.tmax) {}
+    template <class AnyRay>
+    ClosestCollector(const AnyRay& ray, const Query& query) : query_(&query), limit_(ray.tmax) {}
 
     bool collect(const PrimitiveHit& hit) {
         if (hit < best_ && !query_->passes_through(hit.primitive)) {
-            best_ = hit;
-            limit_ = hit.t;
+            best_.t = limit_ = hit.t;
+            best_.u = hit.u;
+            best_.v = hit.v;
+            best_.primitive = hit.primitive;
         }
         return false;
     }
     double limit() const { return limit_; }
-    const PrimitiveHit& best() const { return best_; }
+    // Member by member, as above: a copy by whole registers would wait for the stores of eight bytes (a store-forwarding stall).
+    PrimitiveHit best() const { return {best_.t, best_.u, best_.v, best_.primitive}; }
 
 private:
     const Query* query_;
@@ -43,7 +47,8 @@ class AnyCollector {
 public:
     static constexpr bool wants_nearest_first = false;
 
-    AnyCollector(const Ray& ray, const Query& query) : query_(&query), limit_(ray.tmax) {}
+    template <class AnyRay>
+    AnyCollector(const AnyRay& ray, const Query& query) : query_(&query), limit_(ray.tmax) {}
 
     bool collect(const PrimitiveHit& hit) {
         found_ = !query_->passes_through(hit.primitive);

@@ -23,7 +23,10 @@ inline typename Vector::value_type at(const Vector& v, int axis) {
 }
 
 // A difference with itself is NaN where it is not zero, and so is a sum of such.
-inline bool is_finite(const Vec3& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0.0; }
+template <class T>
+bool is_finite(const glm::vec<3, T>& v) {
+    return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == T(0);
+}
 
 // Lexicographic.
 inline bool precedes(const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }

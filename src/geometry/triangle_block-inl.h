@@ -145,14 +145,14 @@ HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, s
     for (bits &= ~hits.misses; bits != 0; bits &= bits - 1) {
         const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
         const std::uint32_t id = block.id(lane + i);
-        PrimitiveHit hit;
         if (HWY_LIKELY((hits.certain >> i & 1u) != 0)) {
-            hit = {hits.t[i], hits.u[i], hits.v[i], id};
-            if (!ray.ray.contains(hit.t)) continue;
-        } else if (!Primitives::test_corners(ray.ray, block.corners(lane + i), id, hit)) {
+            // Not the variable of below, which has an address and with it a place in memory.
+            const PrimitiveHit hit{hits.t[i], hits.u[i], hits.v[i], id};
+            if (ray.ray.contains(hit.t) && collector.collect(hit)) return true;
             continue;
         }
-        if (collector.collect(hit)) return true;
+        PrimitiveHit hit;
+        if (Primitives::test_corners(ray.ray, block.corners(lane + i), id, hit) && collector.collect(hit)) return true;
     }
     return false;
 }

@@ -28,23 +28,29 @@ HWY_INLINE std::uint32_t bits_of_axes(hn::MFromD<Doubles> mask) {
     return bytes[0];
 }
 
+HWY_INLINE hn::VFromD<Doubles> load_four(const double* numbers) { return hn::LoadU(Doubles(), numbers); }
+HWY_INLINE hn::VFromD<Doubles> load_four(const float* numbers) {
+    return hn::PromoteTo(Doubles(), hn::LoadU(Floats(), numbers));
+}
+
 // The members are stored as they are made, 16 bytes at a time, and read back no wider: reading across stores would wait for them to reach
 // the cache (a store-forwarding stall).
-HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
+template <class AnyRay>
+HWY_INLINE RaySetup set_up_ray(const AnyRay& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
     const Doubles d;
     const Floats f;
     const hn::RebindToUnsigned<Doubles> du;
-    static_assert(offsetof(Ray, tmin) == offsetof(Ray, origin) + 24 &&
-                  offsetof(Ray, tmax) == offsetof(Ray, direction) + 24);
+    static_assert(offsetof(AnyRay, tmin) == offsetof(AnyRay, origin) + 3 * sizeof ray.tmin &&
+                  offsetof(AnyRay, tmax) == offsetof(AnyRay, direction) + 3 * sizeof ray.tmax);
     // Of x, y and z; tmin and tmax go along in the fourth lanes.
     alignas(32) static constexpr std::uint64_t axes_of_magnitude[4] = {~std::uint64_t{0} >> 1, ~std::uint64_t{0} >> 1,
                                                                        ~std::uint64_t{0} >> 1, 0};
     const auto magnitude_bits = hn::BitCast(d, hn::Load(du, axes_of_magnitude));
-    const auto direction = hn::LoadU(d, &ray.direction.x);
+    const auto direction = load_four(&ray.direction.x);
     const auto magnitude = hn::And(direction, magnitude_bits);
     const auto of_pairs = hn::Max(magnitude, hn::Shuffle01(magnitude));
     const auto largest = hn::Max(of_pairs, hn::SwapAdjacentBlocks(of_pairs)); // in all lanes
-    const auto offset = hn::Sub(hn::LoadU(d, &ray.origin.x), hn::LoadU(d, frame.center4()));
+    const auto offset = hn::Sub(load_four(&ray.origin.x), hn::LoadU(d, frame.center4()));
     const auto offset_magnitude = hn::And(offset, magnitude_bits);
     const auto distance_of_pairs = hn::Max(offset_magnitude, hn::Shuffle01(offset_magnitude));
     const auto distance = hn::Max(distance_of_pairs, hn::SwapAdjacentBlocks(distance_of_pairs));
@@ -55,7 +61,7 @@ HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, Traversa
         hn::And(hn::And(hn::Le(magnitude, largest), hn::Le(hn::And(start, magnitude_bits), hn::Set(d, frame.near()))),
                 hn::And(hn::Ge(largest, hn::Set(d, 0x1p-100)), hn::Le(largest, hn::Set(d, 0x1p100))));
     if (HWY_UNLIKELY(bits_of_axes(is_usual) != 15u || !(ray.tmin <= ray.tmax)))
-        return set_up_rare_ray(ray, frame, result, time);
+        return set_up_rare_ray(widened(ray), frame, result, time);
 
     const auto length_bits = hn::And(hn::BitCast(du, largest), hn::Set(du, std::uint64_t{0x7FF} << 52));
     const auto length = hn::BitCast(d, length_bits);
@@ -81,15 +87,16 @@ HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, Traversa
     std::uint8_t backwards[8] = {};
     hn::StoreMaskBits(f, hn::Lt(inverse, hn::Zero(f)), backwards);
     result.octant = backwards[0] & 7u;
-    result.first = RayTime::clamped(ray.tmin * time.scale);
-    result.last = RayTime::clamped(ray.tmax * time.scale);
+    result.first = RayTime::clamped(static_cast<double>(ray.tmin) * time.scale);
+    result.last = RayTime::clamped(static_cast<double>(ray.tmax) * time.scale);
     return RaySetup::ready;
 }
 
 #else
 
-HWY_INLINE RaySetup set_up_ray(const Ray& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
-    return set_up_rare_ray(ray, frame, result, time);
+template <class AnyRay>
+HWY_INLINE RaySetup set_up_ray(const AnyRay& ray, const SceneFrame& frame, TraversalRay& result, RayTime& time) {
+    return set_up_rare_ray(widened(ray), frame, result, time);
 }
 
 #endif

@@ -45,15 +45,13 @@ public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
     Hit closest(const Ray& ray, const Query& query = {}) const {
-        const PrimitiveHit hit = accel_->closest(ray, query);
-        if (!hit.is_hit()) count_invalid(ray);
-        return to_caller(hit);
+        return to_caller(ray, accel_->closest(ray, query));
     }
-    bool any(const Ray& ray, const Query& query = {}) const {
-        const bool found = accel_->any(ray, query);
-        if (!found) count_invalid(ray);
-        return found;
+    Hit closest(const RayF& ray, const Query& query = {}) const {
+        return to_caller(ray, accel_->closest_f32(ray, query));
     }
+    bool any(const Ray& ray, const Query& query = {}) const { return counted(ray, accel_->any(ray, query)); }
+    bool any(const RayF& ray, const Query& query = {}) const { return counted(ray, accel_->any_f32(ray, query)); }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
     void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const {
         all_many({&ray, &query, 1}, &hits);
@@ -79,13 +77,25 @@ private:
         return {hit.t, hit.u, hit.v, invalid_id, id.geometry, id.primitive};
     }
 
+    template <class AnyRay>
+    Hit to_caller(const AnyRay& ray, const PrimitiveHit& hit) const {
+        if (!hit.is_hit()) count_invalid(ray);
+        return to_caller(hit);
+    }
+    template <class AnyRay>
+    bool counted(const AnyRay& ray, bool found) const {
+        if (!found) count_invalid(ray);
+        return found;
+    }
+
     // 1 for a ray with a NaN, which hits nothing.
-    std::uint64_t count_invalid(const Ray& ray) const {
+    template <class AnyRay>
+    std::uint64_t count_invalid(const AnyRay& ray) const {
         if (!ray.may_have_nan() || !ray.has_nan()) return 0;
         usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
         return 1;
     }
-    std::uint64_t count_invalid(const RayPacket& rays) const;
+    std::uint64_t count_invalid_of(const RayPacket& rays) const;
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;

@@ -31,17 +31,10 @@ Bvh::Bvh(const BuildInput& input, BvhQuality quality)
     : primitives_(input.primitives),
       tree_(widen(build_bvh(input, binary_part(quality), options(quality)), input, binary_part(quality))) {}
 
-PrimitiveHit Bvh::closest(const Ray& ray, const Query& query) const {
-    ClosestCollector collector(ray, query);
-    trace_closest(tree_, ray, collector);
-    return collector.best();
-}
-
-bool Bvh::any(const Ray& ray, const Query& query) const {
-    AnyCollector collector(ray, query);
-    trace_any(tree_, ray, collector);
-    return collector.found();
-}
+PrimitiveHit Bvh::closest(const Ray& ray, const Query& query) const { return trace_closest(tree_, ray, query); }
+bool Bvh::any(const Ray& ray, const Query& query) const { return trace_any(tree_, ray, query); }
+PrimitiveHit Bvh::closest_f32(const RayF& ray, const Query& query) const { return trace_closest(tree_, ray, query); }
+bool Bvh::any_f32(const RayF& ray, const Query& query) const { return trace_any(tree_, ray, query); }
 
 void Bvh::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const {
     AllCollector collector(ray, query, hits);

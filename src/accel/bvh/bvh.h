@@ -18,6 +18,8 @@ public:
 
     PrimitiveHit closest(const Ray& ray, const Query& query) const override;
     bool any(const Ray& ray, const Query& query) const override;
+    PrimitiveHit closest_f32(const RayF& ray, const Query& query) const override;
+    bool any_f32(const RayF& ray, const Query& query) const override;
     void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override;
     std::size_t rays_at_a_time() const override { return 2048; } // as many as stay in the caches
     void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;

@@ -98,12 +98,12 @@ HWY_INLINE void prefetch(const WideBvh& bvh, NodeRef reference) {
 }
 
 // A ray on its way through a tree: what culls, and what decides, which is made when the first leaf is met. T: of the tree's triangles.
-template <class T, class Collector>
+template <class T, class AnyRay, class Collector>
 struct TracedRay {
     using Coordinate = T;
 
     const WideBvh& bvh;
-    const Ray& ray;
+    const AnyRay& ray; // the caller's
     TraversalRay& traversal;
     const RayTime& time;
     Collector& collector;
@@ -112,7 +112,7 @@ struct TracedRay {
     // Hands the hits with a leaf's triangles to the collector. Returns whether it wants no more. A function of its own, so that what a ray
     // needs for triangles does not take registers from what it needs for boxes.
     HWY_NOINLINE bool test_leaf(NodeRef leaf) {
-        if (!exact) exact.emplace(ray, time.length);
+        if (!exact) exact.emplace(widened(ray), time.length);
         const BlockRay block_ray(*exact);
         const double distance = leaf.distance() + time.origin_distance;
         const double limit = collector.limit();

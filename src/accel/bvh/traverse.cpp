@@ -16,17 +16,17 @@ HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace {
 
-template <class T, class Collector>
-HWY_INLINE void trace_as(const WideBvh& bvh, const Ray& ray, Collector& collector) {
+template <class T, class AnyRay, class Collector>
+HWY_INLINE void trace_as(const WideBvh& bvh, const AnyRay& ray, Collector& collector) {
     TraversalRay traversal;
     RayTime time;
     if (HWY_UNLIKELY(set_up_ray(ray, bvh.frame, traversal, time) != RaySetup::ready)) return;
-    TracedRay<T, Collector> traced{bvh, ray, traversal, time, collector};
+    TracedRay<T, AnyRay, Collector> traced{bvh, ray, traversal, time, collector};
     traverse(traced, NodeRef::node(0));
 }
 
-template <class Collector>
-HWY_INLINE void trace(const WideBvh& bvh, const Ray& ray, Collector& collector) {
+template <class AnyRay, class Collector>
+HWY_INLINE void trace(const WideBvh& bvh, const AnyRay& ray, Collector& collector) {
     if (bvh.nodes.empty()) return;
     if (bvh.is_float64) {
         trace_as<double>(bvh, ray, collector);
@@ -35,8 +35,26 @@ HWY_INLINE void trace(const WideBvh& bvh, const Ray& ray, Collector& collector) 
     }
 }
 
-void closest_kernel(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector) { trace(bvh, ray, collector); }
-void any_kernel(const WideBvh& bvh, const Ray& ray, AnyCollector& collector) { trace(bvh, ray, collector); }
+template <class AnyRay>
+HWY_INLINE PrimitiveHit closest(const WideBvh& bvh, const AnyRay& ray, const Query& query) {
+    ClosestCollector collector(ray, query);
+    trace(bvh, ray, collector);
+    return collector.best();
+}
+
+template <class AnyRay>
+HWY_INLINE bool any(const WideBvh& bvh, const AnyRay& ray, const Query& query) {
+    AnyCollector collector(ray, query);
+    trace(bvh, ray, collector);
+    return collector.found();
+}
+
+PrimitiveHit closest_kernel(const WideBvh& bvh, const Ray& ray, const Query& query) { return closest(bvh, ray, query); }
+PrimitiveHit closest_f32_kernel(const WideBvh& bvh, const RayF& ray, const Query& query) {
+    return closest(bvh, ray, query);
+}
+bool any_kernel(const WideBvh& bvh, const Ray& ray, const Query& query) { return any(bvh, ray, query); }
+bool any_f32_kernel(const WideBvh& bvh, const RayF& ray, const Query& query) { return any(bvh, ray, query); }
 void all_kernel(const WideBvh& bvh, const Ray& ray, AllCollector& collector) { trace(bvh, ray, collector); }
 
 // A stream of fewer is not worth what it takes to make it ready.
@@ -74,16 +92,24 @@ HWY_AFTER_NAMESPACE();
 namespace raywise {
 
 HWY_EXPORT(closest_kernel);
+HWY_EXPORT(closest_f32_kernel);
 HWY_EXPORT(any_kernel);
+HWY_EXPORT(any_f32_kernel);
 HWY_EXPORT(all_kernel);
 HWY_EXPORT(closest_many_kernel);
 HWY_EXPORT(any_many_kernel);
 
-void trace_closest(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector) {
-    HWY_DYNAMIC_DISPATCH(closest_kernel)(bvh, ray, collector);
+PrimitiveHit trace_closest(const WideBvh& bvh, const Ray& ray, const Query& query) {
+    return HWY_DYNAMIC_DISPATCH(closest_kernel)(bvh, ray, query);
 }
-void trace_any(const WideBvh& bvh, const Ray& ray, AnyCollector& collector) {
-    HWY_DYNAMIC_DISPATCH(any_kernel)(bvh, ray, collector);
+PrimitiveHit trace_closest(const WideBvh& bvh, const RayF& ray, const Query& query) {
+    return HWY_DYNAMIC_DISPATCH(closest_f32_kernel)(bvh, ray, query);
+}
+bool trace_any(const WideBvh& bvh, const Ray& ray, const Query& query) {
+    return HWY_DYNAMIC_DISPATCH(any_kernel)(bvh, ray, query);
+}
+bool trace_any(const WideBvh& bvh, const RayF& ray, const Query& query) {
+    return HWY_DYNAMIC_DISPATCH(any_f32_kernel)(bvh, ray, query);
 }
 void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector) {
     HWY_DYNAMIC_DISPATCH(all_kernel)(bvh, ray, collector);

@@ -8,8 +8,10 @@
 namespace raywise {
 
 // As the functions of Accel. One on a primitive with several references is collected once for each.
-void trace_closest(const WideBvh& bvh, const Ray& ray, ClosestCollector& collector);
-void trace_any(const WideBvh& bvh, const Ray& ray, AnyCollector& collector);
+PrimitiveHit trace_closest(const WideBvh& bvh, const Ray& ray, const Query& query);
+PrimitiveHit trace_closest(const WideBvh& bvh, const RayF& ray, const Query& query);
+bool trace_any(const WideBvh& bvh, const Ray& ray, const Query& query);
+bool trace_any(const WideBvh& bvh, const RayF& ray, const Query& query);
 void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector);
 void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch);
 void trace_any_many(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch);
