@@ -36,6 +36,10 @@ public:
     bool is_leaf() const { return bits_ >> 32 != 0; }
     std::uint32_t index() const { return static_cast<std::uint32_t>(bits_); } // of the node, or of the first triangle
     std::uint32_t triangles() const { return static_cast<std::uint32_t>(bits_ >> 32) & most_triangles; }
+    // Some of a leaf's triangles, from the first one named on.
+    NodeRef part(std::uint32_t first, std::uint32_t triangles) const {
+        return NodeRef((bits_ >> 54) << 54 | std::uint64_t{triangles} << 32 | (index() + first));
+    }
     double distance() const { // ldexp takes longer than the rest of a leaf's set-up
         const std::uint64_t bits = ((bits_ >> 54) + static_cast<std::uint64_t>(1023 + least_exponent)) << 52;
         double result;

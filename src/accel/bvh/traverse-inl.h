@@ -14,6 +14,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -112,19 +113,22 @@ struct TracedRay {
     // Hands the hits with a leaf's triangles to the collector. Returns whether it wants no more. A function of its own, so that what a ray
     // needs for triangles does not take registers from what it needs for boxes.
     HWY_NOINLINE bool test_leaf(NodeRef leaf) {
+        if (HWY_UNLIKELY(leaf.triangles() > triangle_block_size)) return test_large_leaf(leaf);
         if (!exact) exact.emplace(widened(ray), time.length);
-        const BlockRay block_ray(*exact);
-        const double distance = leaf.distance() + time.origin_distance;
         const double limit = collector.limit();
-        const std::uint32_t triangles = leaf.triangles();
-        const std::byte* data = bvh.blocks.data() + TriangleBlock<T>::bytes_per_triangle * std::size_t{leaf.index()};
-        for (std::uint32_t left = triangles; left > 0;) {
-            const std::uint32_t n = left < triangle_block_size ? left : triangle_block_size;
-            if (test_triangle_block(block_ray, TriangleBlock<T>{data, n}, distance, collector)) return true;
-            data += TriangleBlock<T>::bytes_per_triangle * n;
-            left -= n;
-        }
+        const std::byte* const data =
+            bvh.blocks.data() + TriangleBlock<T>::bytes_per_triangle * std::size_t{leaf.index()};
+        const TriangleBlock<T> block(data, leaf.triangles());
+        if (test_triangle_block(BlockRay(*exact), block, leaf.distance() + time.origin_distance, collector)) return true;
         if (collector.limit() < limit) traversal.last = time.last(collector.limit());
+        return false;
+    }
+
+    // Of triangles that no plane parts. Not in test_leaf: for a loop a BlockRay would have to lie in memory.
+    HWY_NOINLINE bool test_large_leaf(NodeRef leaf) {
+        for (std::uint32_t first = 0; first < leaf.triangles(); first += triangle_block_size) {
+            if (test_leaf(leaf.part(first, std::min(triangle_block_size, leaf.triangles() - first)))) return true;
+        }
         return false;
     }
 };
