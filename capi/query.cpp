@@ -35,15 +35,21 @@ Error over_capacity(std::uint64_t needed, std::uint64_t capacity) {
             "hits: there are " + std::to_string(needed) + ", capacity is " + std::to_string(capacity)};
 }
 
-Hit closest_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options) {
+template <class AnyRay>
+Hit closest_with(const Tracer& tracer, const AnyRay& ray, const rw_ray_options& options) {
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     return tracer.closest(ray, {sorted(skips)});
 }
+template Hit closest_with(const Tracer&, const Ray&, const rw_ray_options&);
+template Hit closest_with(const Tracer&, const RayF&, const rw_ray_options&);
 
-bool any_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options) {
+template <class AnyRay>
+bool any_with(const Tracer& tracer, const AnyRay& ray, const rw_ray_options& options) {
     std::vector<std::uint32_t> skips = read_skips(options, tracer.primitives());
     return tracer.any(ray, {sorted(skips)});
 }
+template bool any_with(const Tracer&, const Ray&, const rw_ray_options&);
+template bool any_with(const Tracer&, const RayF&, const rw_ray_options&);
 
 std::vector<Hit> all_with(const Tracer& tracer, const Ray& ray, const rw_ray_options* options) {
     std::vector<std::uint32_t> skips;

@@ -8,8 +8,10 @@
 namespace raywise::capi {
 
 // For a ray with options.
-Hit closest_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options);
-bool any_with(const Tracer& tracer, const Ray& ray, const rw_ray_options& options);
+template <class AnyRay>
+Hit closest_with(const Tracer& tracer, const AnyRay& ray, const rw_ray_options& options);
+template <class AnyRay>
+bool any_with(const Tracer& tracer, const AnyRay& ray, const rw_ray_options& options);
 // options: may be NULL.
 std::vector<Hit> all_with(const Tracer& tracer, const Ray& ray, const rw_ray_options* options);
 
@@ -19,14 +21,14 @@ template <class CallersRay, class CallersHit>
 void intersect(const Tracer& tracer, const CallersRay* ray, const rw_ray_options* options, CallersHit* hit) {
     const auto& r = read_ray(ray);
     CallersHit& out = required(hit, "hit");
-    write_hit(options == nullptr ? tracer.closest(r) : closest_with(tracer, widened(r), *options), out);
+    write_hit(options == nullptr ? tracer.closest(r) : closest_with(tracer, r, *options), out);
 }
 
 template <class CallersRay>
 void occluded(const Tracer& tracer, const CallersRay* ray, const rw_ray_options* options, std::int32_t* answer) {
     const auto& r = read_ray(ray);
     std::int32_t& out = required(answer, "occluded");
-    out = (options == nullptr ? tracer.any(r) : any_with(tracer, widened(r), *options)) ? 1 : 0;
+    out = (options == nullptr ? tracer.any(r) : any_with(tracer, r, *options)) ? 1 : 0;
 }
 
 template <class CallersRay, class CallersHit>

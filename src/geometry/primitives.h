@@ -60,7 +60,6 @@ public:
 
     // Needs a valid primitive.
     Corners corners(std::uint32_t primitive) const {
-        if (meshes_.size() == 1) return meshes_.front()->corners(primitive);
         const PrimitiveId id = locate(primitive);
         return meshes_[id.geometry]->corners(id.primitive);
     }
@@ -70,6 +69,7 @@ public:
     }
 
     PrimitiveId locate(std::uint32_t primitive) const {
+        if (first_.size() == 1) return {0, primitive};
         const auto next = std::upper_bound(first_.begin(), first_.end(), primitive);
         const auto geometry = static_cast<std::uint32_t>(next - first_.begin() - 1);
         return {geometry, primitive - first_[geometry]};

@@ -89,6 +89,8 @@ void any_many_kernel(const WideBvh& bvh, const RayPacket& rays, bool* found, Scr
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "base/dispatch.h"
+
 namespace raywise {
 
 HWY_EXPORT(closest_kernel);
@@ -100,16 +102,16 @@ HWY_EXPORT(closest_many_kernel);
 HWY_EXPORT(any_many_kernel);
 
 PrimitiveHit trace_closest(const WideBvh& bvh, const Ray& ray, const Query& query) {
-    return HWY_DYNAMIC_DISPATCH(closest_kernel)(bvh, ray, query);
+    return RW_DISPATCH(closest_kernel)(bvh, ray, query);
 }
 PrimitiveHit trace_closest(const WideBvh& bvh, const RayF& ray, const Query& query) {
-    return HWY_DYNAMIC_DISPATCH(closest_f32_kernel)(bvh, ray, query);
+    return RW_DISPATCH(closest_f32_kernel)(bvh, ray, query);
 }
 bool trace_any(const WideBvh& bvh, const Ray& ray, const Query& query) {
-    return HWY_DYNAMIC_DISPATCH(any_kernel)(bvh, ray, query);
+    return RW_DISPATCH(any_kernel)(bvh, ray, query);
 }
 bool trace_any(const WideBvh& bvh, const RayF& ray, const Query& query) {
-    return HWY_DYNAMIC_DISPATCH(any_f32_kernel)(bvh, ray, query);
+    return RW_DISPATCH(any_f32_kernel)(bvh, ray, query);
 }
 void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector) {
     HWY_DYNAMIC_DISPATCH(all_kernel)(bvh, ray, collector);

@@ -1,0 +1,19 @@
+// Highway's dispatch for kernels that are called for each ray. HWY_DYNAMIC_DISPATCH asks the shared library of Highway which target was chosen;
+// that is a call through two tables. Here its answer's place is kept.
+#pragma once
+
+#include <hwy/highway.h>
+#include <hwy/targets.h>
+
+namespace raywise {
+
+// Found when the library is loaded.
+inline const hwy::ChosenTarget& chosen_target = hwy::GetChosenTarget();
+
+} // namespace raywise
+
+#if HWY_IDE || ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0)
+#define RW_DISPATCH(kernel) HWY_DYNAMIC_DISPATCH(kernel)
+#else
+#define RW_DISPATCH(kernel) (HWY_DISPATCH_TABLE(kernel)[chosen_target.GetIndex()])
+#endif
