@@ -25,6 +25,8 @@ public:
         scale_ = std::ldexp(1.0, -exponent);
         radius_ = radius;
         near_ = smaller(near_radii * larger(radius * scale_, 0x1p-100), near_radii);
+        const bool is_in_range = scale_ >= 0x1p-60 && scale_ <= 0x1p60 && near_ >= 0x1p-60;
+        if (center == Vec3(0.0) && is_in_range) float_scale_ = static_cast<float>(scale_);
     }
 
     // Exact but for the difference, which rounds by 2^-53 of it, and for what is below the normal numbers then.
@@ -44,6 +46,8 @@ public:
     const double* center4() const { return center_; } // x y z, and a zero
     double radius() const { return radius_; }         // in the scene's unit; see the constructor
     double scale() const { return scale_; }           // a power of two
+    // The same where float32 coordinates get into the frame without leaving float32; elsewhere zero.
+    float float_scale() const { return float_scale_; }
     // Rays that start farther from the center than this, in the frame, are moved (ray/traversal_ray.h).
     double near() const { return near_; }
 
@@ -67,6 +71,7 @@ private:
     double radius_ = 0.0;
     double scale_ = 1.0;
     double near_ = near_radii;
+    float float_scale_ = 0.0f;
 };
 
 } // namespace raywise

@@ -44,9 +44,7 @@ class Tracer {
 public:
     Tracer(std::shared_ptr<const Primitives> primitives, std::shared_ptr<const Accel> accel);
 
-    Hit closest(const Ray& ray, const Query& query = {}) const {
-        return to_caller(ray, accel_->closest(ray, query));
-    }
+    Hit closest(const Ray& ray, const Query& query = {}) const { return to_caller(ray, accel_->closest(ray, query)); }
     Hit closest(const RayF& ray, const Query& query = {}) const {
         return to_caller(ray, accel_->closest_f32(ray, query));
     }

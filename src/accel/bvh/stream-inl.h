@@ -97,7 +97,8 @@ private:
         for (std::size_t k = 0; k < deferred_count_; ++k) {
             const auto [i, reference] = deferred_[k];
             if (is_done(collectors_[i])) continue;
-            TracedRay<T, Ray, Collector> traced{bvh_, rays_.rays[i], rays_.traversal[i], rays_.times[i], collectors_[i]};
+            TracedRay<T, Ray, Collector> traced{bvh_, rays_.rays[i], rays_.traversal[i], rays_.times[i],
+                                                collectors_[i]};
             const bool done = reference.is_leaf() ? traced.test_leaf(reference) : traverse(traced, reference);
             if (done) rays_.traversal[i].last = -std::numeric_limits<float>::max(); // it enters no box any more
         }

@@ -119,7 +119,8 @@ struct TracedRay {
         const std::byte* const data =
             bvh.blocks.data() + TriangleBlock<T>::bytes_per_triangle * std::size_t{leaf.index()};
         const TriangleBlock<T> block(data, leaf.triangles());
-        if (test_triangle_block(BlockRay(*exact), block, leaf.distance() + time.origin_distance, collector)) return true;
+        if (test_triangle_block(BlockRay(*exact), block, leaf.distance() + time.origin_distance, collector))
+            return true;
         if (collector.limit() < limit) traversal.last = time.last(collector.limit());
         return false;
     }
