@@ -55,13 +55,25 @@ HWY_INLINE TriangleVector load_coordinates(const float* line) {
     return hn::PromoteTo(TriangleLanes(), hn::LoadU(hn::Rebind<float, TriangleLanes>(), line));
 }
 
+// The corners of a block's triangles from `lane` on.
+struct BlockTriangles {
+    BlockCorner a, b, c;
+};
+
 template <class T>
-HWY_INLINE BlockCorner block_corner(const BlockRay& ray, const TriangleBlock<T>& block, std::size_t corner,
-                                    std::uint32_t lane) {
-    const TriangleVector dx = hn::Sub(load_coordinates(block.line(corner, ray.x) + lane), ray.origin_x);
-    const TriangleVector dy = hn::Sub(load_coordinates(block.line(corner, ray.y) + lane), ray.origin_y);
-    const TriangleVector z = hn::Sub(load_coordinates(block.line(corner, ray.z) + lane), ray.origin_z);
-    return {hn::Sub(dx, hn::Mul(ray.shear_x, z)), hn::Sub(dy, hn::Mul(ray.shear_y, z)), z};
+HWY_INLINE BlockTriangles block_triangles(const BlockRay& ray, const TriangleBlock<T>& block, std::uint32_t lane) {
+    // One product for each axis, not for each line.
+    const T* const x = block.line(0, ray.x) + lane;
+    const T* const y = block.line(0, ray.y) + lane;
+    const T* const z = block.line(0, ray.z) + lane;
+    const std::size_t next = std::size_t{3} * block.pitch;
+    const auto corner = [&](std::size_t line) HWY_ATTR {
+        const TriangleVector dx = hn::Sub(load_coordinates(x + line), ray.origin_x);
+        const TriangleVector dy = hn::Sub(load_coordinates(y + line), ray.origin_y);
+        const TriangleVector dz = hn::Sub(load_coordinates(z + line), ray.origin_z);
+        return BlockCorner{hn::Sub(dx, hn::Mul(ray.shear_x, dz)), hn::Sub(dy, hn::Mul(ray.shear_y, dz)), dz};
+    };
+    return {corner(0), corner(next), corner(2 * next)};
 }
 
 HWY_INLINE TriangleVector block_edge(const BlockCorner& p, const BlockCorner& q) {

@@ -30,7 +30,7 @@ struct TriangleBlock {
     std::uint32_t pitch; // coordinates from line to line
 
     const T* line(std::size_t corner, std::size_t axis) const {
-        return reinterpret_cast<const T*>(data) + axis * pitch + 3 * corner * pitch; // one product for each axis
+        return reinterpret_cast<const T*>(data) + (3 * corner + axis) * pitch;
     }
     std::uint32_t id(std::uint32_t i) const {
         std::uint32_t result;

@@ -25,9 +25,7 @@ template <class T, class Collector>
 HWY_INLINE bool test_lanes(const BlockRay& ray, const TriangleBlock<T>& block, std::uint32_t lane,
                            Collector& collector) {
     const TriangleLanes d;
-    const BlockCorner a = block_corner(ray, block, 0, lane);
-    const BlockCorner b = block_corner(ray, block, 1, lane);
-    const BlockCorner c = block_corner(ray, block, 2, lane);
+    const auto [a, b, c] = block_triangles(ray, block, lane);
     const TriangleVector wa = block_edge(b, c);
     const TriangleVector wb = block_edge(c, a);
     const TriangleVector wc = block_edge(a, b);
