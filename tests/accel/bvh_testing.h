@@ -108,10 +108,24 @@ void expect_nothing_to_hit(const Triangles& triangles) {
     EXPECT_GT(structure.bytes(), 0u);
 }
 
-// Closest, any and all against the linear scan. Returns whether the ray hits something.
+inline RayF rounded_to_float(const Ray& ray) {
+    return {Vec3f(ray.origin), static_cast<float>(ray.tmin), Vec3f(ray.direction), static_cast<float>(ray.tmax)};
+}
+
+// A ray of float32 against the linear scan: what it hits is what it hits as one of float64.
+template <class Structure>
+void expect_same_f32(Scene& scene, const Structure& structure, const RayF& ray) {
+    const oracle::PlainScan scan(scene.input());
+    const PrimitiveHit expected = scan.closest(widened(ray), {});
+    EXPECT_TRUE(same_hit(expected, structure.closest_f32(ray, {}))) << "closest_f32; " << text_of(widened(ray));
+    EXPECT_EQ(expected.is_hit(), structure.any_f32(ray, {})) << "any_f32; " << text_of(widened(ray));
+}
+
+// Closest, any and all against the linear scan, in both precisions. Returns whether the ray hits something.
 template <class Structure>
 bool expect_same(Scene& scene, const Structure& structure, const Ray& ray) {
     if (!ray.is_traceable()) return false;
+    expect_same_f32(scene, structure, rounded_to_float(ray));
     const oracle::PlainScan scan(scene.input());
     const PrimitiveHit expected = scan.closest(ray, {});
     const PrimitiveHit found = structure.closest(ray, {});

@@ -7,6 +7,7 @@
 #include "geometry/every_target.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -106,6 +107,64 @@ TEST(WideBvh, TheSameOnEveryTargetAtAllScales) {
 
 TEST(WideBvh, TheSameOnEveryTargetFarFromTheOrigin) {
     expect_same_on_every_target(soup(200, 0.2, 5, 1e-3, Vec3(5e6, -5e6, 5e6)), 120, 5);
+}
+
+// Whatever eight numbers come: a ray that nothing can be said of hits nothing.
+TEST(WideBvh, AnyNumbersOfFloat32OnEveryTarget) {
+    using Limits = std::numeric_limits<float>;
+    const float numbers[] = {0.0f,
+                             -0.0f,
+                             1.0f,
+                             -1.0f,
+                             0.3f,
+                             -0.7f,
+                             Limits::denorm_min(),
+                             -Limits::min(),
+                             Limits::max(),
+                             -Limits::max(),
+                             Limits::infinity(),
+                             -Limits::infinity(),
+                             Limits::quiet_NaN(),
+                             0x1p-60f,
+                             0x1p60f,
+                             -0x1p61f,
+                             0x1p-61f,
+                             0x1p-100f};
+    for (const double scale : {1.0, 0x1p-58, 0x1p-62, 0x1p62, 0x1p120}) {
+        for (const bool is_far : {false, true}) {
+            const Vec3 center(is_far ? 1e6 * scale : 0.0);
+            const Triangles triangles = soup(60, 0.6, 8, scale, center);
+            Scene scene(triangles);
+            const Bvh bvh(scene.input());
+            on_every_target([&] {
+                Random random(9);
+                const auto any_number = [&] {
+                    return numbers[random.integer(0, static_cast<int>(std::size(numbers)) - 1)];
+                };
+                for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
+                    RayF ray = rounded_to_float(any_ray(triangles, scene.bounds(), random));
+                    for (int changes = random.integer(0, 3); changes > 0; --changes) {
+                        const int axis = random.integer(0, 2);
+                        switch (random.integer(0, 3)) {
+                            case 0:
+                                ray.origin[axis] = any_number();
+                                break;
+                            case 1:
+                                ray.direction[axis] = any_number();
+                                break;
+                            case 2:
+                                ray.tmin = any_number();
+                                break;
+                            default:
+                                ray.tmax = any_number();
+                                break;
+                        }
+                    }
+                    expect_same_f32(scene, bvh, ray);
+                }
+            });
+        }
+    }
 }
 
 TEST(WideBvh, MoreTrianglesInALeafThanInABlock) {
