@@ -43,8 +43,6 @@ inline Box merge(Box a, const Box& b) {
     return a;
 }
 
-inline Box intersection(const Box& a, const Box& b) { return {glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)}; }
-
 // The largest float not above x, and the smallest not below it. |x| has to be at most FLT_MAX.
 inline float round_down(double x) {
     const float f = static_cast<float>(x);
