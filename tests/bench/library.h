@@ -26,7 +26,9 @@ namespace raywise::bench {
     X(rw_scene_release)           \
     X(rw_scene_get_statistics)    \
     X(rw_scene_intersect)         \
+    X(rw_scene_intersect_f32)     \
     X(rw_scene_occluded)          \
+    X(rw_scene_occluded_f32)      \
     X(rw_scene_normal)            \
     X(rw_scene_intersect_batch)   \
     X(rw_scene_occluded_batch)

@@ -13,20 +13,46 @@ std::vector<double> moved(const std::vector<float>& points, const Vec3& offset) 
     return result;
 }
 
-// Ray by ray; rw_ray is made of doubles, which hold float32 without loss.
-template <Question question>
+// The single calls of each precision.
+struct CallsF32 {
+    using Number = float;
+    using CallersRay = rw_ray_f32;
+    using CallersHit = rw_hit_f32;
+
+    explicit CallsF32(const Library& library)
+        : intersect(library.rw_scene_intersect_f32), occluded(library.rw_scene_occluded_f32) {}
+
+    decltype(&::rw_scene_intersect_f32) intersect;
+    decltype(&::rw_scene_occluded_f32) occluded;
+};
+
+struct CallsF64 {
+    using Number = double;
+    using CallersRay = rw_ray;
+    using CallersHit = rw_hit;
+
+    explicit CallsF64(const Library& library)
+        : intersect(library.rw_scene_intersect), occluded(library.rw_scene_occluded) {}
+
+    decltype(&::rw_scene_intersect) intersect;
+    decltype(&::rw_scene_occluded) occluded;
+};
+
+// Ray by ray.
+template <class Calls, Question question>
 class SingleQuery : public Query {
 public:
     SingleQuery(const Library& library, const rw_scene* scene, const RaySet& rays, const Vec3& offset)
-        : intersect_(library.rw_scene_intersect), occluded_(library.rw_scene_occluded), scene_(scene) {
+        : calls_(library), scene_(scene) {
         rays_.resize(rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                rays_[i].origin[axis] = static_cast<double>(rays.origin[3 * i + axis]) + offset[static_cast<int>(axis)];
-                rays_[i].direction[axis] = static_cast<double>(rays.direction[3 * i + axis]);
+                const double origin = static_cast<double>(rays.origin[3 * i + axis]) + offset[static_cast<int>(axis)];
+                rays_[i].origin[axis] = static_cast<typename Calls::Number>(origin);
+                rays_[i].direction[axis] = rays.direction[3 * i + axis];
             }
-            rays_[i].tmin = static_cast<double>(rays.tmin[i]);
-            rays_[i].tmax = static_cast<double>(rays.tmax[i]);
+            rays_[i].tmin = rays.tmin[i];
+            rays_[i].tmax = rays.tmax[i];
         }
     }
 
@@ -35,11 +61,11 @@ public:
         for (std::size_t i = first; i < last; ++i) {
             if constexpr (question == Question::any) {
                 std::int32_t occluded = 0;
-                occluded_(scene_, &rays_[i], nullptr, &occluded);
+                calls_.occluded(scene_, &rays_[i], nullptr, &occluded);
                 hits += occluded != 0 ? 1 : 0;
             } else {
-                rw_hit hit;
-                intersect_(scene_, &rays_[i], nullptr, &hit);
+                typename Calls::CallersHit hit;
+                calls_.intersect(scene_, &rays_[i], nullptr, &hit);
                 hits += hit.primitive != RW_INVALID_ID ? 1 : 0;
             }
         }
@@ -47,10 +73,9 @@ public:
     }
 
 private:
-    decltype(&::rw_scene_intersect) intersect_;
-    decltype(&::rw_scene_occluded) occluded_;
+    const Calls calls_;
     const rw_scene* scene_;
-    std::vector<rw_ray> rays_;
+    std::vector<typename Calls::CallersRay> rays_;
 };
 
 class BatchQuery : public Query {
@@ -142,9 +167,8 @@ public:
 
     std::unique_ptr<Query> query(const QueryRequest& request) const override {
         if (request.call == Call::batch) return std::make_unique<BatchQuery>(library_, scene_.get(), request, offset_);
-        if (request.question == Question::any)
-            return std::make_unique<SingleQuery<Question::any>>(library_, scene_.get(), request.rays, offset_);
-        return std::make_unique<SingleQuery<Question::closest>>(library_, scene_.get(), request.rays, offset_);
+        // As whoever has such data: float32 where it holds the scene, as peers are asked.
+        return offset_ == Vec3(0.0) ? single<CallsF32>(request) : single<CallsF64>(request);
     }
 
     double bytes() const override {
@@ -155,6 +179,13 @@ public:
     std::string structure() const override { return statistics().structure; }
 
 private:
+    template <class Calls>
+    std::unique_ptr<Query> single(const QueryRequest& request) const {
+        if (request.question == Question::any)
+            return std::make_unique<SingleQuery<Calls, Question::any>>(library_, scene_.get(), request.rays, offset_);
+        return std::make_unique<SingleQuery<Calls, Question::closest>>(library_, scene_.get(), request.rays, offset_);
+    }
+
     rw_scene_statistics statistics() const {
         rw_scene_statistics told{};
         told.struct_size = sizeof told;
