@@ -3,6 +3,13 @@
 #pragma once
 
 #include <hwy/highway.h>
+
+#if HWY_IDE || ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0) // one target, and no library of Highway
+
+#define RW_DISPATCH(kernel) HWY_DYNAMIC_DISPATCH(kernel)
+
+#else
+
 #include <hwy/targets.h>
 
 namespace raywise {
@@ -12,8 +19,6 @@ inline const hwy::ChosenTarget& chosen_target = hwy::GetChosenTarget();
 
 } // namespace raywise
 
-#if HWY_IDE || ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0)
-#define RW_DISPATCH(kernel) HWY_DYNAMIC_DISPATCH(kernel)
-#else
-#define RW_DISPATCH(kernel) (HWY_DISPATCH_TABLE(kernel)[chosen_target.GetIndex()])
+#define RW_DISPATCH(kernel) (HWY_DISPATCH_TABLE(kernel)[raywise::chosen_target.GetIndex()])
+
 #endif
