@@ -15,6 +15,16 @@ Cost scan_in_place(const MachineConstants& constants, const Cost& gathered) {
     return cost;
 }
 
+Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes) {
+    // A number for each triangle in its cell, and half as much again for those on an edge, and for the cells.
+    constexpr double least_per_triangle = 8.0;
+    if (cost.bytes <= bytes || !shrinks(structure) || bytes < least_per_triangle * features.triangles) return cost;
+    Cost smaller = cost;
+    smaller.ray_ns *= cost.bytes / bytes;
+    smaller.bytes = bytes;
+    return smaller;
+}
+
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload) {
     const StructureConstants& lines = constants.structures[structure];

@@ -20,6 +20,10 @@ struct Cost {
 // The same scan when it reads the caller's arrays: it builds nothing, and each ray gathers the triangles on its way.
 Cost scan_in_place(const MachineConstants& constants, const Cost& gathered);
 
+// The same structure within so many bytes, where it shrinks and they suffice; else it stays as it is. Cells of a grid are fewer then, and what
+// each holds, which is what a ray's time goes into, grows as they do.
+Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes);
+
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload);
 

@@ -35,18 +35,19 @@ struct UnitsOfStructure {
     CostUnits ray;
     CostUnits bytes;
     bool needs_view;
+    bool shrinks;
 };
 
 // In the order of structure_list.def.
 constexpr UnitsOfStructure table[] = {
-    {Structure::linear_scan, CostUnits(n), CostUnits(n), CostUnits(n), false},
-    {Structure::uniform_grid, CostUnits(n, references), grid_ray, CostUnits(n, references), false},
-    {Structure::kd_tree, CostUnits(n_log_n, references), tree_ray, CostUnits(n, references), false},
-    {Structure::bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false},
-    {Structure::projected_bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), true},
-    {Structure::bvh_quality, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false},
+    {Structure::linear_scan, CostUnits(n), CostUnits(n), CostUnits(n), false, false},
+    {Structure::uniform_grid, CostUnits(n, references), grid_ray, CostUnits(n, references), false, true},
+    {Structure::kd_tree, CostUnits(n_log_n, references), tree_ray, CostUnits(n, references), false, false},
+    {Structure::bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false},
+    {Structure::projected_bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), true, false},
+    {Structure::bvh_quality, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false},
     // Radix sort: as many passes whatever the number.
-    {Structure::bvh_morton, CostUnits(n), tree_ray, CostUnits(n), false},
+    {Structure::bvh_morton, CostUnits(n), tree_ray, CostUnits(n), false, false},
 };
 
 constexpr bool is_complete() {
@@ -66,5 +67,6 @@ const CostUnits& build_units(Structure structure) { return units_of(structure).b
 const CostUnits& ray_units(Structure structure) { return units_of(structure).ray; }
 const CostUnits& byte_units(Structure structure) { return units_of(structure).bytes; }
 bool needs_view(Structure structure) { return units_of(structure).needs_view; }
+bool shrinks(Structure structure) { return units_of(structure).shrinks; }
 
 } // namespace raywise

@@ -38,5 +38,7 @@ const CostUnits& byte_units(Structure structure);
 
 // Whether the structure needs a view to differ from another candidate; without one it is no candidate.
 bool needs_view(Structure structure);
+// Whether it can be built smaller than it would like, down to some bytes per triangle.
+bool shrinks(Structure structure);
 
 } // namespace raywise

@@ -50,6 +50,25 @@ TEST(Predict, TellsTheLargerMisfit) {
     EXPECT_DOUBLE_EQ(error(RayKind::shadow), 0.3);
 }
 
+TEST(Within, OnlyWhatShrinksIsTakenSmaller) {
+    Cost cost;
+    cost.build_ns = 1e6;
+    cost.ray_ns = 100;
+    cost.bytes = 40'000;
+    const SceneFeatures features = features_of(1000);
+    const Cost half = within(Structure::uniform_grid, cost, features, 20'000);
+    EXPECT_EQ(half.bytes, 20'000);
+    EXPECT_EQ(half.ray_ns, 200);
+    EXPECT_EQ(half.build_ns, 1e6);
+    EXPECT_EQ(within(Structure::uniform_grid, cost, features, 40'000).ray_ns, 100);
+    EXPECT_EQ(within(Structure::uniform_grid, cost, features, 7'999).bytes, 40'000) << "no room for the references";
+    for (const Structure structure : all_structures()) {
+        const bool is_smaller = within(structure, cost, features, 20'000).bytes < cost.bytes;
+        EXPECT_EQ(is_smaller, shrinks(structure)) << name_of(structure);
+    }
+    EXPECT_FALSE(shrinks(Structure::bvh));
+}
+
 // A scan that reads the caller's arrays builds and keeps nothing; its rays gather on their way.
 TEST(Predict, HasFewRaysScanInPlace) {
     MachineConstants constants;
