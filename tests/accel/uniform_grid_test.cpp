@@ -4,6 +4,7 @@
 #include "geometry/triangle_box_overlap.h"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <utility>
 
@@ -45,6 +46,7 @@ TEST_P(UniformGridOn, AnswersAsTheLinearScanWithOtherSwitches) {
         GridOptions options;
         options.overlap_test = overlap_test;
         options.mailboxes = overlap_test == OverlapTest::all;
+        options.gather = false;
         const UniformGrid grid(world.input(), options);
         expect_scan_answers(world, grid, 103);
     }
@@ -52,12 +54,15 @@ TEST_P(UniformGridOn, AnswersAsTheLinearScanWithOtherSwitches) {
 
 TEST_P(UniformGridOn, IsTheSameWithWideOffsets) {
     World world(GetParam().make());
-    const UniformGrid narrow(world.input());
     GridOptions options;
+    options.gather = false;
+    const UniformGrid narrow(world.input(), options);
     options.max_narrow_references = 0;
     const UniformGrid wide(world.input(), options);
     EXPECT_EQ(wide.lists().is_wide(), world.primitives().hittable_count() > 0);
     EXPECT_FALSE(narrow.lists().is_wide());
+    options.gather = true;
+    if (world.soup().size() < 200) expect_scan_answers(world, UniformGrid(world.input(), options), 105);
     expect_same_lists(narrow, wide);
     if (world.soup().size() < 1000) expect_scan_answers(world, wide, 104);
 }
@@ -78,10 +83,17 @@ TEST(UniformGrid, IsTheSameForAnyNumberOfThreads) {
     const Soup soup = random_soup(60000, 0.01, 31);
     World one(soup, 1);
     World two(soup, 2);
-    const UniformGrid a(one.input());
-    const UniformGrid b(two.input());
+    GridOptions options;
+    options.gather = false;
+    const UniformGrid a(one.input(), options);
+    const UniformGrid b(two.input(), options);
     EXPECT_EQ(a.bytes(), b.bytes());
     expect_same_lists(a, b);
+    options.gather = true;
+    const UniformGrid c(one.input(), options);
+    const UniformGrid d(two.input(), options);
+    ASSERT_EQ(c.lists().blocks.size(), d.lists().blocks.size());
+    EXPECT_EQ(std::memcmp(c.lists().blocks.data(), d.lists().blocks.data(), c.lists().blocks.size()), 0);
 }
 
 TEST(UniformGrid, ListsPrimitivesInTheCellsThatTheyOverlapAndOnce) {
@@ -89,6 +101,7 @@ TEST(UniformGrid, ListsPrimitivesInTheCellsThatTheyOverlapAndOnce) {
     for (const OverlapTest overlap_test : {OverlapTest::none, OverlapTest::large, OverlapTest::all}) {
         GridOptions options;
         options.overlap_test = overlap_test;
+        options.gather = false;
         const UniformGrid grid(world.input(), options);
         const CellLattice& lattice = grid.lattice();
         std::set<std::pair<std::uint32_t, std::uint32_t>> listed; // cell, primitive
@@ -123,11 +136,76 @@ TEST(UniformGrid, LimitsItsReferences) {
     EXPECT_LE(grid.statistics().references, 24u * 20000u + 65536u);
 }
 
+// Few rays: half a cell per primitive; many: one cell, and the corners in the cells; a memory limit takes the corners away, then cells.
+TEST(UniformGrid, GoesByTheRaysThatAreExpectedAndByTheMemoryLimit) {
+    World world(random_soup(20000, 0.02, 37));
+    BuildInput input = world.input();
+    input.rays = 100;
+    const UniformGrid few(input);
+    EXPECT_FALSE(few.lists().has_blocks());
+    EXPECT_NEAR(static_cast<double>(few.lattice().cell_count()), 10000.0, 1000.0);
+    input.rays = 1000000;
+    const UniformGrid many(input);
+    EXPECT_TRUE(many.lists().has_blocks());
+    EXPECT_TRUE(many.lists().references.empty());
+    EXPECT_NEAR(static_cast<double>(many.lattice().cell_count()), 20000.0, 2000.0);
+    expect_scan_answers(world, many, 106);
+
+    input.memory_limit = many.bytes() / 2;
+    const UniformGrid lists(input);
+    EXPECT_FALSE(lists.lists().has_blocks());
+    EXPECT_LE(lists.bytes(), input.memory_limit);
+    EXPECT_EQ(lists.lattice().resolution, many.lattice().resolution);
+
+    input.memory_limit = lists.bytes() * 3 / 4;
+    const UniformGrid coarse(input);
+    EXPECT_LE(coarse.bytes(), input.memory_limit);
+    EXPECT_LT(coarse.lattice().cell_count(), many.lattice().cell_count());
+    EXPECT_GT(coarse.lattice().cell_count(), 1u);
+    expect_scan_answers(world, coarse, 107);
+
+    input.memory_limit = 1; // less than anything takes: as little as there is
+    EXPECT_EQ(UniformGrid(input).lattice().cell_count(), 1u);
+}
+
+// Triangles of several meshes, of float32 and float64: corners are gathered in float64, and one by one where a block has several meshes.
+TEST(UniformGrid, GathersCornersOfSeveralMeshes) {
+    const Soup soup = rounded_to_float(random_soup(300, 0.1, 38));
+    std::vector<float> narrow;
+    for (const Corners& c : soup)
+        for (const Vec3& p : c)
+            for (int axis = 0; axis < 3; ++axis) narrow.push_back(static_cast<float>(p[axis]));
+    const auto mesh = [](const void* data, std::size_t count, Scalar scalar) {
+        TriangleArrays arrays;
+        const auto size = static_cast<std::ptrdiff_t>(size_of(scalar));
+        arrays.vertices = {static_cast<const std::byte*>(data), 3 * size, size, scalar};
+        arrays.vertex_count = 3 * count;
+        arrays.triangle_count = count;
+        return std::make_shared<const TriangleMesh>(arrays, false, false);
+    };
+    const Primitives mixed({mesh(narrow.data(), 300, Scalar::float32), mesh(soup.data(), 300, Scalar::float64)});
+    const Parallel parallel(1);
+    Progress progress;
+    const BuildInput input{mixed, {}, {}, parallel, progress};
+    GridOptions options;
+    options.gather = true;
+    const UniformGrid gathered(input, options);
+    options.gather = false;
+    const UniformGrid listed(input, options);
+    EXPECT_TRUE(gathered.lists().blocks_are_float64);
+    const World world(soup);
+    for (const Ray& ray : hard_rays(world, 3, 39)) {
+        EXPECT_TRUE(bits_equal(listed.closest(ray, {}), gathered.closest(ray, {}))) << describe(ray);
+        const PrimitiveHit alone = oracle::PlainScan(input).closest(ray, {});
+        EXPECT_TRUE(bits_equal(alone, gathered.closest(ray, {}))) << describe(ray);
+    }
+}
+
 TEST(UniformGrid, CountsReferencesInItsStatistics) {
     World world(cubes(5));
     const UniformGrid grid(world.input());
     const GridStatistics statistics = grid.statistics();
-    EXPECT_EQ(statistics.references, grid.lists().references.size());
+    EXPECT_EQ(statistics.references, grid.lists().offset(grid.lattice().number_count));
     EXPECT_EQ(statistics.cells, grid.lattice().cell_count());
     EXPECT_EQ(statistics.resolution, grid.lattice().resolution);
 }

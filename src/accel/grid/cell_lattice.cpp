@@ -44,6 +44,17 @@ CellLattice::CellLattice(const Box& box, const std::array<std::uint32_t, 3>& cel
     number_count = brick_step;
 }
 
+std::array<std::uint32_t, 3> CellLattice::place(std::uint32_t number) const {
+    std::array<std::uint32_t, 3> place{};
+    for (std::size_t axis = 3; axis-- > 0;) { // bricks step farthest along the last axis
+        const AxisNumbers& along = numbers[axis];
+        place[axis] =
+            (number / along.brick_step << along.brick_shift) | (number >> along.cell_shift & along.brick_mask());
+        number = number % along.brick_step;
+    }
+    return place;
+}
+
 std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives, double density) {
     const double wanted = std::clamp(primitives * density, 1.0, CellLattice::max_cells);
     const double largest = max_component(size);

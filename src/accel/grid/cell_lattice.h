@@ -47,6 +47,8 @@ struct CellLattice {
     std::uint32_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
         return numbers[0](x) + numbers[1](y) + numbers[2](z);
     }
+    // Of the cell with that number.
+    std::array<std::uint32_t, 3> place(std::uint32_t number) const;
     std::uint64_t cell_count() const { return std::uint64_t{resolution[0]} * resolution[1] * resolution[2]; }
 };
 

@@ -14,6 +14,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "accel/grid/one_triangle.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace {
@@ -173,39 +175,14 @@ HWY_INLINE std::uint32_t add_small(const GroupRanges& ranges, const CellLattice&
 }
 
 template <class T>
-Corners corners_in_cells(const T* lines, std::size_t lane, const CellLattice& lattice) {
+Corners corners_of(const T* lines, std::size_t lane) {
     const T* const first = lane_of(lines, lane);
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<glm::length_t>(axis);
-            const double coordinate = first[(3 * k + axis) * corner_block];
-            corners[k][a] = (coordinate - lattice.bounds.lower[a]) * lattice.cells_per_unit[a];
-        }
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            corners[k][static_cast<glm::length_t>(axis)] = static_cast<double>(first[(3 * k + axis) * corner_block]);
     }
     return corners;
-}
-
-// One triangle, cell by cell.
-void add_one(const Corners& corners, const CellLattice& lattice, bool exact, std::uint32_t primitive, std::size_t most,
-             CellPairs& pairs) {
-    const CellRange range = bounding_cells(corners, lattice.resolution);
-    const auto add = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        const CellPairs::Room room = pairs.make_room(1);
-        *room.cells =
-            lattice.number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z));
-        *room.primitives = primitive;
-        pairs.add(pairs.size() <= most ? 1 : 0); // beyond that nobody looks at them
-    };
-    if (exact) {
-        for_each_overlapped_cell(corners, range, add);
-        return;
-    }
-    for (std::int32_t z = range.lower[2]; z <= range.upper[2] && pairs.size() <= most; ++z) {
-        for (std::int32_t y = range.lower[1]; y <= range.upper[1] && pairs.size() <= most; ++y) {
-            for (std::int32_t x = range.lower[0]; x <= range.upper[0]; ++x) add(x, y, z);
-        }
-    }
 }
 
 template <class T>
@@ -234,9 +211,9 @@ void find_pairs_of_mesh(const Primitives& primitives, const TriangleMesh& mesh, 
             }
             for (; HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
                 const std::uint32_t triangle = i + static_cast<std::uint32_t>(__builtin_ctz(rest));
-                const Corners corners = corners_in_cells(lines, triangle, lattice);
+                const Corners corners = corners_of(lines, triangle);
                 if (std::isnan(corners[0].x)) continue;
-                add_one(corners, lattice, overlap_test != OverlapTest::none, name + begin + triangle, most, pairs);
+                add_one_triangle(corners, lattice, overlap_test, 0, name + begin + triangle, most, pairs);
             }
         }
     }
@@ -270,6 +247,11 @@ HWY_EXPORT(find_cell_pairs_kernel);
 void find_cell_pairs(const Primitives& primitives, std::uint32_t first, std::uint32_t end, const CellLattice& lattice,
                      OverlapTest overlap_test, std::size_t most, CellPairs& pairs) {
     HWY_DYNAMIC_DISPATCH(find_cell_pairs_kernel)(primitives, first, end, lattice, overlap_test, most, pairs);
+}
+
+void add_cell_pairs(const Corners& corners, const CellLattice& lattice, std::uint32_t first_cell,
+                    std::uint32_t primitive, std::size_t most, CellPairs& pairs) {
+    add_one_triangle(corners, lattice, OverlapTest::large, first_cell, primitive, most, pairs);
 }
 
 void CellPairs::grow(std::size_t least) {

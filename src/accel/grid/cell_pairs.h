@@ -49,4 +49,8 @@ private:
 void find_cell_pairs(const Primitives& primitives, std::uint32_t first, std::uint32_t end, const CellLattice& lattice,
                      OverlapTest overlap_test, std::size_t most, CellPairs& pairs);
 
+// Adds the pairs of one triangle, or some of them and more than `most`; its cells' numbers count from first_cell.
+void add_cell_pairs(const Corners& corners, const CellLattice& lattice, std::uint32_t first_cell,
+                    std::uint32_t primitive, std::size_t most, CellPairs& pairs);
+
 } // namespace raywise

@@ -16,7 +16,9 @@ enum class OverlapTest {
 struct GridOptions {
     std::optional<double> density; // cells per primitive; empty: by the rays that are expected
     OverlapTest overlap_test = OverlapTest::large;
-    bool mailboxes = true;
+    bool mailboxes = true; // where the corners are not gathered
+    // Whether cells have the corners of their triangles beside each other; empty: by the rays that are expected.
+    std::optional<bool> gather;
     // More references than that are counted in 64 bits.
     std::uint64_t max_narrow_references = 0xFFFFFFF0u;
 };

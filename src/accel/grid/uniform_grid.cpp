@@ -1,30 +1,23 @@
 #include "accel/grid/uniform_grid.h"
 
+#include "accel/grid/cell_blocks.h"
+#include "accel/grid/grid_choice.h"
+
 #include <vector>
 
 namespace raywise {
-namespace {
-
-// References beyond this many per primitive coarsen the grid: large primitives that overlap each other, for which
-// smaller cells gain little.
-constexpr std::uint64_t max_references_per_primitive = 24;
-constexpr std::uint64_t references_always_allowed = 1u << 16;
-
-} // namespace
 
 UniformGrid::UniformGrid(const BuildInput& input, const GridOptions& options)
-    : TraversedAccel(input.primitives), mailboxes_(options.mailboxes) {
-    const Primitives& primitives = input.primitives;
-    const std::uint64_t hittable = primitives.hittable_count();
-    if (hittable == 0) return;
-    double cells = options.density.value_or(default_density) * static_cast<double>(hittable);
-    for (;;) {
-        lattice_ = CellLattice(primitives.bounds(), grid_resolution(primitives.bounds().size(), cells, 1.0));
-        const std::uint64_t max_references =
-            lattice_.cell_count() == 1 ? hittable : hittable * max_references_per_primitive + references_always_allowed;
-        if (build_grid_lists(input, lattice_, options, max_references, lists_)) break;
-        cells /= 4.0; // with one cell everything fits
+    : primitives_(input.primitives), mailboxes_(options.mailboxes) {
+    if (input.primitives.hittable_count() == 0) return;
+    GridOptions chosen = options;
+    if (!chosen.density) {
+        chosen.density = expects_rays(input, rays_for_more_cells) ? density_for_many_rays : density_for_few_rays;
     }
+    lattice_ = build_limited_lists(input, chosen, {input.progress, 0.0, 0.6}, lists_);
+    const bool gather = options.gather.value_or(expects_rays(input, rays_for_gathering));
+    if (gather && fits_blocks(input, lists_.bytes(), lists_.references.size()))
+        write_cell_blocks(input.primitives, input.parallel, {input.progress, 0.6, 1.0}, lists_);
 }
 
 GridStatistics UniformGrid::statistics() const {
