@@ -45,7 +45,8 @@ struct BuildInput {
     // So few rays will come that what is made ready for them would take longer than they do; see worth_gathering in
     // model/policy.h. A structure that can do without may then do so.
     bool few_rays = false;
-    std::uint64_t memory_limit = 0; // bytes, 0: none; for structures that can do with less
+    std::uint64_t memory_limit = 0;      // bytes, 0: none; for structures that can do with less
+    std::optional<std::uint64_t> rays{}; // expected; empty: nobody knows
 };
 
 // Many rays, each with what narrows it down.

@@ -6,8 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "geometry/corner_lines-inl.h"
-#include "geometry/triangle_block-inl.h"
+#include "accel/primitive_test-inl.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,80 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace {
 
-static_assert(listed_at_once == triangle_block_size);
-
-// At most eight primitives out of a list, and behind them the last one again.
-struct Listed {
-    std::uint32_t ids[triangle_block_size];
-    std::uint32_t n = 0;
-
-    // Takes what can be hit from the list's beginning. Returns how many it has looked at.
-    HWY_INLINE std::size_t take(const Primitives& primitives, const std::uint32_t* list, std::size_t count) {
-        n = 0;
-        std::size_t next = 0;
-        for (; next < count && n < triangle_block_size; ++next) {
-            if (primitives.is_hittable(list[next])) ids[n++] = list[next];
-        }
-        for (std::uint32_t i = n; n > 0 && i < triangle_block_size; ++i) ids[i] = ids[n - 1];
-        return next;
-    }
-};
-
-// No corner of the block is farther from the origin along any axis.
-template <class T>
-HWY_INLINE double farthest_corner(const TriangleBlock<T>& block, const Vec3& origin) {
-    const TriangleLanes d;
-    TriangleVector farthest = hn::Zero(d);
-    for (std::uint32_t lane = 0; lane < block.n; lane += triangle_lanes) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const TriangleVector start = hn::Set(d, origin[static_cast<glm::length_t>(axis)]);
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const TriangleVector place = load_coordinates(block.line(corner, axis) + lane);
-                farthest = hn::Max(farthest, hn::Abs(hn::Sub(place, start)));
-            }
-        }
-    }
-    return hn::GetLane(hn::MaxOfLanes(d, farthest));
-}
-
-// Triangles of one mesh, whose vertices are rows of T.
-template <class T, class Collector>
-HWY_INLINE bool test_in_lanes(const BlockRay& ray, const TriangleMesh& mesh, const std::uint32_t* triangles,
-                              const Listed& listed, Collector& collector) {
-    HWY_ALIGN std::byte data[TriangleBlock<T>::bytes_per_triangle * corner_block];
-    gather_listed(mesh.arrays(), triangles, reinterpret_cast<T*>(data));
-    for (std::uint32_t i = 0; i < listed.n; ++i) write_block_id<T>(data, corner_block, i, listed.ids[i]);
-    const TriangleBlock<T> block(data, listed.n, corner_block);
-    return test_triangle_block(ray, block, farthest_corner(block, ray.ray.origin), collector);
-}
-
 template <class Collector>
 bool test_kernel(const Primitives& primitives, const ExactRay& ray, const std::uint32_t* list, std::size_t count,
                  Collector& collector) {
-    const BlockRay block_ray(ray);
-    Listed listed;
-    for (std::size_t next = 0; next < count;) {
-        next += listed.take(primitives, list + next, count - next);
-        if (listed.n == 0) break;
-        const PrimitiveId first = primitives.locate(listed.ids[0]);
-        const TriangleMesh& mesh = *primitives.meshes()[first.geometry];
-        bool is_in_lanes = mesh.arrays().vertices.has_rows();
-        std::uint32_t triangles[triangle_block_size]; // in the mesh
-        for (std::uint32_t i = 0; i < triangle_block_size; ++i) {
-            triangles[i] = listed.ids[i] - (listed.ids[0] - first.primitive);
-            is_in_lanes &= triangles[i] < mesh.triangle_count();
-        }
-        if (!is_in_lanes) { // of several meshes, or with their coordinates apart
-            for (std::uint32_t i = 0; i < listed.n; ++i) {
-                PrimitiveHit hit;
-                if (primitives.test(ray, listed.ids[i], hit) && collector.collect(hit)) return true;
-            }
-        } else if (mesh.is_float32() ? test_in_lanes<float>(block_ray, mesh, triangles, listed, collector)
-                                     : test_in_lanes<double>(block_ray, mesh, triangles, listed, collector)) {
-            return true;
-        }
-    }
-    return false;
+    return test_listed(primitives, BlockRay(ray), list, count, collector);
 }
 
 bool test_closest(const Primitives& primitives, const ExactRay& ray, const std::uint32_t* list, std::size_t count,

@@ -3,6 +3,7 @@
 #include "accel/bvh/bvh.h"
 #include "accel/bvh/bvh_morton.h"
 #include "accel/bvh/bvh_quality.h"
+#include "accel/grid/two_level_grid.h"
 #include "accel/grid/uniform_grid.h"
 #include "accel/kdtree/kd_tree.h"
 #include "accel/projected/projected_bvh.h"

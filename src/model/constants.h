@@ -47,7 +47,8 @@ struct MachineConstants {
 
 // Changes only when kernels or builders change so much that old measurements mislead, or when a structure joins the list,
 // of which older files know nothing.
-// 2: eight-wide bvh, gathered linear scan, batches in order. 3: bvh_quality. 4: bvh_morton and features.
+// 2: eight-wide bvh, gathered linear scan, batches in order. 3: bvh_quality. 4: bvh_morton, two_level_grid, grid and
+// kd-tree by vectors, features.
 inline constexpr unsigned calibration_epoch = 4;
 
 } // namespace raywise

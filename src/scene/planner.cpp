@@ -107,7 +107,8 @@ private:
                 parallel_,
                 progress_,
                 !worth_gathering(request_.workload),
-                request_.memory_limit};
+                request_.memory_limit,
+                request_.workload.rays};
     }
 
     std::shared_ptr<const Accel> note_built(PlannedCandidate& candidate, std::shared_ptr<const Accel> accel,

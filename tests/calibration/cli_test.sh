@@ -74,6 +74,7 @@ expect 0 show "$FOLDER/profile.json"
 printed "projected_bvh"
 printed "bvh_quality"
 printed "bvh_morton"
+printed "two_level_grid"
 narrow
 expect 0 show "$FOLDER/profile.json" --json
 cmp -s "$FOLDER/out" "$FOLDER/profile.json" || fail "show --json differs from the file"

@@ -144,7 +144,8 @@ int main(void) {
                  {"kd_tree", 17},
                  {"bvh", 1},
                  {"bvh_quality", 1},
-                 {"bvh_morton", 1}}; /* a kd-tree takes thousands */
+                 {"bvh_morton", 1},
+                 {"two_level_grid", 1}}; /* a kd-tree takes thousands */
     rw_scene *judge;
     size_t s;
     int i;

@@ -1,5 +1,6 @@
 // The walk of a ray from cell to cell of a grid (Fujimoto, Tanaka, Iwata 1986, "ARTS: Accelerated Ray-Tracing System"; Amanatides and Woo
-// 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing").
+// 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing"), on two levels: from brick to brick, and from cell to cell where a brick holds
+// something.
 //
 // Why the walk cannot lose a hit. Let P be the point where the exact ray meets a primitive, at the exact distance t.
 // - Along axis k the cells are parted by the planes 1 ... n - 1 (the faces of the bounds do not part cells). The walk
@@ -7,17 +8,21 @@
 //   falls, for a backward direction) and puts the plane wrongly by at most 8 * 2^-53 * R along axis k, R being the
 //   larger of the ray's distance from the bounds and their size: the rounding of T, divided by |1 / direction|, is
 //   that of a difference of coordinates.
-// - The walk crosses the planes of all three axes in the order of their T. So there is one moment at which it has
-//   crossed exactly the planes with T <= t, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
+// - The walk from brick to brick crosses those planes that part bricks, of all three axes in the order of their T. So there is one moment
+//   at which it has crossed exactly those with T <= t. It then is in the brick that was entered at some T <= t.
+// - The walk within a brick begins where the planes with T up to that entry's are crossed, and crosses the brick's other planes in the
+//   order of their T, until the next one parts bricks, whose T is beyond t. So there is one moment at which exactly the planes with
+//   T <= t are crossed, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
 // - Primitives are listed in every cell that they come nearer to than half of overlap_slack cells
 //   (triangle_box_overlap.h). As long as that is more than the error, the primitive is in that cell's list: 2^-17 of
 //   a cell's width against 2^-50 * R. R is at most 8 sizes of the bounds, because rays from farther away are moved (ray/cell_ray.h), and
 //   there are at most 2^24 cells along an axis.
-// - The walk starts in a cell whose planes behind it have T below the ray's first possible hit, and ends when the
+// - The walk starts in a brick whose planes behind it have T below the ray's first possible hit, and ends when the
 //   next plane lies beyond the last possible one, both by the ray's margin (ray/cell_ray.h). So the moment lies between start and end.
 #pragma once
 
-#include "base/box.h"
+#include "accel/grid/cell_lattice.h"
+#include "base/lanes.h"
 #include "ray/cell_ray.h"
 
 #include <algorithm>
@@ -29,18 +34,66 @@
 
 namespace raywise {
 
-// Equal cells of a box. Cell (i, j, k) is number i + resolution[0] * (j + resolution[1] * k).
-struct CellLattice {
-    Box bounds{Vec3(0.0), Vec3(0.0)};
-    std::array<std::uint32_t, 3> resolution{};
-    Vec3 cells_per_unit{0.0}; // 0 along an axis with one cell
-    Vec3 width{0.0};          // of a cell
+namespace cell_walk_detail {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The course of a ray along one axis, over planes that are `step` apart.
+struct Course {
+    double next = infinity; // T of the next plane; infinite where there is none
+    double plane = 0.0;     // its number
+    double step = 0.0;      // from plane to plane; negative for a backward direction
+    double a = 0.0;         // T(i) = a + i * b
+    double b = 0.0;
+    std::uint32_t number = 0; // what the place adds to the number of the cell or brick
+    std::uint32_t number_step = 0;
+
+    RW_INLINE double distance(double i) const { return a + i * b; }
 };
 
+} // namespace cell_walk_detail
+
+// Within a brick.
 class CellWalk {
 public:
-    CellWalk(const CellRay& ray, const CellLattice& lattice) : last_s_(ray.last) {
-        double near = ray.first;
+    // The cell's number within the brick.
+    std::uint32_t cell() const { return x_.number + y_.number + z_.number; }
+    void end_at(double s) { last_s_ = s; }
+
+    // To the next cell. Returns false at the brick's or the ray's end. Branches tell the axis, not a table of three courses: what is guessed
+    // right costs nothing, and the courses stay in registers (a sixth of the time of random rays through the bunny).
+    RW_INLINE bool step() {
+        if (x_.next <= y_.next) {
+            if (x_.next <= z_.next) return cross(x_);
+        } else if (y_.next <= z_.next) {
+            return cross(y_);
+        }
+        return cross(z_);
+    }
+
+private:
+    friend class BrickWalk;
+    struct Course : cell_walk_detail::Course {
+        double border = 0.0;                             // the plane where the brick ends
+        double border_next = cell_walk_detail::infinity; // its T; infinite at the face of the bounds
+    };
+
+    RW_INLINE bool cross(Course& course) {
+        if (course.next > last_s_ || course.plane == course.border) return false;
+        course.number += course.number_step;
+        course.plane += course.step;
+        course.next = course.plane == course.border ? course.border_next : course.distance(course.plane);
+        return true;
+    }
+
+    Course x_, y_, z_;
+    double last_s_ = 0.0; // the s behind which no hit is of use
+};
+
+class BrickWalk {
+public:
+    RW_INLINE BrickWalk(const CellRay& ray, const CellLattice& lattice)
+        : ray_(ray), lattice_(lattice), entry_s_(ray.first), last_s_(ray.last) {
         for (int axis = 0; axis < 3; ++axis) {
             const double lower = lattice.bounds.lower[axis];
             const double upper = lattice.bounds.upper[axis];
@@ -52,94 +105,149 @@ public:
                 continue;
             }
             const Interval slab = ray.slab(axis, lower, upper);
-            near = std::max(near, slab.near);
+            entry_s_ = std::max(entry_s_, slab.near);
             last_s_ = std::min(last_s_, slab.far);
         }
-        enters_ = near <= last_s_;
+        enters_ = entry_s_ <= last_s_;
         if (!enters_) return;
-        std::int64_t stride = 1;
-        for (int axis = 0; axis < 3; ++axis) {
-            Course& course = axis == 0 ? x_ : axis == 1 ? y_ : z_;
-            cell_ += stride * course.begin(ray, lattice, axis, near);
-            course.stride *= stride;
-            stride *= lattice.resolution[static_cast<std::size_t>(axis)];
-        }
+        begin(x_, 0);
+        begin(y_, 1);
+        begin(z_, 2);
     }
 
-    // Whether the ray meets the box of all cells at all; else there is no cell.
+    // Whether the ray meets the box of all cells at all; else there is no brick.
     bool enters() const { return enters_; }
-    std::size_t cell() const { return static_cast<std::size_t>(cell_); }
+    // Its number, which is that of its first cell over cells_per_brick.
+    std::uint32_t brick() const { return x_.number + y_.number + z_.number; }
     // No hit behind s is of use any more.
-    void end_at(double s) { last_s_ = std::min(last_s_, s); }
+    void end_at(double s) {
+        last_s_ = std::min(last_s_, s);
+        enters_ = enters_ && entry_s_ <= last_s_;
+    }
+    double last_s() const { return last_s_; }
 
-    // To the next cell. Returns false at the end. Branches tell the axis, not a table of three courses: what is guessed right costs
-    // nothing, and the courses stay in registers (a sixth of the time of random rays through the bunny).
-    bool step() {
-        if (x_.next <= y_.next) return x_.next <= z_.next ? cross(x_) : cross(z_);
-        return y_.next <= z_.next ? cross(y_) : cross(z_);
+    RW_INLINE bool step() {
+        if (x_.next <= y_.next) {
+            if (x_.next <= z_.next) return cross(x_);
+        } else if (y_.next <= z_.next) {
+            return cross(y_);
+        }
+        return cross(z_);
+    }
+
+    // The walk through the brick, from where the ray comes in.
+    RW_INLINE CellWalk cells() const {
+        CellWalk walk;
+        walk.last_s_ = last_s_;
+        begin_cells(walk.x_, x_, 0);
+        begin_cells(walk.y_, y_, 1);
+        begin_cells(walk.z_, z_, 2);
+        return walk;
     }
 
 private:
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
     // A component so small moves the ray by less than 2^-60 of the scene's distance: nothing, against the slack of
     // the lists.
     static constexpr double still = 0x1p-60;
 
-    // Along one axis.
-    struct Course {
-        double next = infinity; // T of the next plane; infinite after the last
-        double plane = 0.0;     // its number
-        double last = 0.0;      // the number of the face behind the last plane
-        double step = 0.0;      // 1 or -1
-        double a = 0.0;         // T(i) = a + i * b
-        double b = 0.0;
-        std::int64_t stride = 0; // from cell to cell, in cell numbers
-
-        // Returns where the walk begins: the cell's place along the axis.
-        std::int64_t begin(const CellRay& ray, const CellLattice& lattice, int axis, double start) {
-            const std::uint32_t count = lattice.resolution[static_cast<std::size_t>(axis)];
-            if (count == 1) return 0;
-            const double d = ray.direction[axis];
-            const double lower = lattice.bounds.lower[axis];
-            const double highest = count - 1.0;
-            const bool moves = std::fabs(d) > still;
-            const double position =
-                ((ray.start[axis] - lower) + (moves ? start * d : 0.0)) * lattice.cells_per_unit[axis];
-            double at = std::floor(std::min(std::max(position, 0.0), highest));
-            if (moves) {
-                a = (lower - ray.start[axis]) * ray.inverse[axis];
-                b = lattice.width[axis] * ray.inverse[axis];
-                // The rounded position may be a plane too far ahead.
-                if (d > 0.0) {
-                    while (at > 0.0 && distance(at) > start) at -= 1.0;
-                    step = 1.0;
-                    plane = at + 1.0;
-                    last = count;
-                } else {
-                    while (at < highest && distance(at + 1.0) > start) at += 1.0;
-                    step = -1.0;
-                    plane = at;
-                    last = 0.0;
-                }
-                stride = d > 0.0 ? 1 : -1;
-                if (plane != last) next = distance(plane);
-            }
-            return static_cast<std::int64_t>(at);
-        }
-        double distance(double i) const { return a + i * b; }
+    struct Course : cell_walk_detail::Course {
+        double lowest = 0.0;   // place of the brick's first cell
+        double cell_count = 0; // along the axis
+        bool moves = false;
     };
 
-    bool cross(Course& course) {
+    // Where the ray is at s, in cells, within the lattice.
+    RW_INLINE double place(const Course& course, int axis, double s) const {
+        const double position =
+            ((ray_.start[axis] - lattice_.bounds.lower[axis]) + (course.moves ? s * ray_.direction[axis] : 0.0)) *
+            lattice_.cells_per_unit[axis];
+        return std::min(std::max(position, 0.0), course.cell_count - 1.0);
+    }
+
+    RW_INLINE void begin(Course& course, int axis) {
+        const auto index = static_cast<std::size_t>(axis);
+        const AxisNumbers& numbers = lattice_.numbers[index];
+        course.cell_count = lattice_.resolution[index];
+        if (lattice_.resolution[index] == 1) return;
+        const double d = ray_.direction[axis];
+        const double side = numbers.brick_mask() + 1.0;
+        const std::uint32_t brick_step = numbers.brick_step / cells_per_brick;
+        course.moves = std::fabs(d) > still;
+        auto brick = static_cast<std::uint32_t>(place(course, axis, entry_s_)) >> numbers.brick_shift;
+        course.lowest = brick * side;
+        if (course.moves) {
+            course.a = (lattice_.bounds.lower[axis] - ray_.start[axis]) * ray_.inverse[axis];
+            course.b = lattice_.width[axis] * ray_.inverse[axis];
+            // The rounded position may be a plane too far ahead.
+            if (d > 0.0) {
+                while (course.lowest > 0.0 && course.distance(course.lowest) > entry_s_) {
+                    course.lowest -= side;
+                    --brick;
+                }
+                course.step = side;
+                course.number_step = brick_step;
+                course.plane = course.lowest + side;
+            } else {
+                while (course.lowest + side < course.cell_count && course.distance(course.lowest + side) > entry_s_) {
+                    course.lowest += side;
+                    ++brick;
+                }
+                course.step = -side;
+                course.number_step = 0u - brick_step;
+                course.plane = course.lowest;
+            }
+            course.next = next_of(course);
+        }
+        course.number = brick * brick_step;
+    }
+
+    static RW_INLINE double next_of(const Course& course) {
+        const bool is_inside = course.plane > 0.0 && course.plane < course.cell_count;
+        return is_inside ? course.distance(course.plane) : cell_walk_detail::infinity;
+    }
+
+    RW_INLINE bool cross(Course& course) {
         if (course.next > last_s_) return false; // which is finite: the walk ends
-        cell_ += course.stride;
+        entry_s_ = course.next;
+        course.number += course.number_step;
+        course.lowest += course.step;
         course.plane += course.step;
-        course.next = course.plane == course.last ? infinity : course.distance(course.plane);
+        course.next = next_of(course);
         return true;
     }
 
+    RW_INLINE void begin_cells(CellWalk::Course& cells, const Course& bricks, int axis) const {
+        const AxisNumbers& numbers = lattice_.numbers[static_cast<std::size_t>(axis)];
+        const double side = numbers.brick_mask() + 1.0;
+        const double highest = std::min(bricks.lowest + side, bricks.cell_count) - 1.0;
+        double at = std::min(std::max(std::floor(place(bricks, axis, entry_s_)), bricks.lowest), highest);
+        const std::uint32_t number_step = 1u << numbers.cell_shift;
+        if (bricks.moves) {
+            cells.a = bricks.a;
+            cells.b = bricks.b;
+            if (bricks.step > 0.0) {
+                while (at > bricks.lowest && cells.distance(at) > entry_s_) at -= 1.0;
+                cells.step = 1.0;
+                cells.number_step = number_step;
+                cells.plane = at + 1.0;
+            } else {
+                while (at < highest && cells.distance(at + 1.0) > entry_s_) at += 1.0;
+                cells.step = -1.0;
+                cells.number_step = 0u - number_step;
+                cells.plane = at;
+            }
+            cells.border = std::min(bricks.plane, bricks.cell_count);
+            cells.border_next = bricks.next;
+            cells.next = cells.plane == cells.border ? cells.border_next : cells.distance(cells.plane);
+        }
+        cells.number = static_cast<std::uint32_t>(at - bricks.lowest) << numbers.cell_shift;
+    }
+
+    const CellRay& ray_;
+    const CellLattice& lattice_;
     Course x_, y_, z_;
-    std::int64_t cell_ = 0;
-    double last_s_; // the s behind which no hit is of use
+    double entry_s_; // where the brick was entered
+    double last_s_;  // the s behind which no hit is of use
     bool enters_ = false;
 };
 

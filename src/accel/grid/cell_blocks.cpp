@@ -1,0 +1,126 @@
+#include "accel/grid/cell_blocks.h"
+
+// This file is read once for each target, and the kernels compiled for it.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/grid/cell_blocks.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "accel/primitive_test-inl.h"
+#include "geometry/triangle_block.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <type_traits>
+
+HWY_BEFORE_NAMESPACE();
+namespace raywise::HWY_NAMESPACE {
+namespace {
+
+// A line of a block. whole: what lies behind it is written later, and may be written over now.
+template <class T>
+HWY_INLINE void write_line(T* line, const T* numbers, std::uint32_t n, bool whole) {
+    std::memcpy(line, numbers, (whole ? triangle_block_size : n) * sizeof(T));
+}
+
+// The block of n primitives, at most eight. Returns false where they have to be read one by one.
+template <class T>
+HWY_INLINE bool write_block(const Primitives& primitives, const std::uint32_t* list, std::uint32_t n, bool whole,
+                            std::byte* block) {
+    const PrimitiveId first = primitives.locate(list[0]);
+    const TriangleMesh& mesh = *primitives.meshes()[first.geometry];
+    bool is_in_lanes = mesh.arrays().vertices.has_rows() && mesh.is_float32() == std::is_same_v<T, float>;
+    std::uint32_t triangles[triangle_block_size]; // in the mesh
+    for (std::uint32_t i = 0; i < triangle_block_size; ++i) {
+        triangles[i] = list[std::min(i, n - 1)] - (list[0] - first.primitive);
+        is_in_lanes &= triangles[i] < mesh.triangle_count();
+    }
+    if (!is_in_lanes) return false;
+    HWY_ALIGN T lines[9 * corner_block];
+    gather_listed(mesh.arrays(), triangles, lines);
+    T* const target = reinterpret_cast<T*>(block);
+    for (std::size_t line = 0; line < 9; ++line) write_line(target + line * n, lines + line * corner_block, n, whole);
+    for (std::uint32_t i = 0; i < n; ++i) write_block_id<T>(block, n, i, list[i]);
+    return true;
+}
+
+template <class T>
+void write_blocks(const Primitives& primitives, const GridLists& lists, std::uint64_t first, std::uint64_t end,
+                  std::byte* blocks) {
+    const std::uint32_t* const references = lists.references.data();
+    const std::uint64_t last = lists.offset(end);
+    for (std::uint64_t cell = first; cell < end; ++cell) {
+        if ((lists.occupied[cell / cells_per_brick] >> (cell % cells_per_brick) & 1u) == 0) continue;
+        const std::uint64_t cell_end = lists.offset(cell + 1);
+        for (std::uint64_t i = lists.offset(cell); i < cell_end; i += triangle_block_size) {
+            const auto n = static_cast<std::uint32_t>(std::min<std::uint64_t>(triangle_block_size, cell_end - i));
+            std::byte* const block = blocks + i * TriangleBlock<T>::bytes_per_triangle;
+            // A line of eight reaches seven numbers beyond a block's last line of coordinates, at most.
+            const bool whole = last - i >= 2 * triangle_block_size;
+            if (write_block<T>(primitives, references + i, n, whole, block)) continue;
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const Corners corners = primitives.corners(references[i + k]);
+                T numbers[3][3];
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    for (std::size_t axis = 0; axis < 3; ++axis)
+                        numbers[corner][axis] = static_cast<T>(corners[corner][static_cast<glm::length_t>(axis)]);
+                }
+                write_block_triangle(block, n, k, numbers, references[i + k]);
+            }
+        }
+    }
+}
+
+void write_blocks_kernel(const Primitives& primitives, const GridLists& lists, std::uint64_t first, std::uint64_t end,
+                         std::byte* blocks) {
+    if (lists.blocks_are_float64) {
+        write_blocks<double>(primitives, lists, first, end, blocks);
+    } else {
+        write_blocks<float>(primitives, lists, first, end, blocks);
+    }
+}
+
+} // namespace
+} // namespace raywise::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace raywise {
+
+HWY_EXPORT(write_blocks_kernel);
+
+void write_cell_blocks(const Primitives& primitives, const Parallel& parallel, const ProgressPart& progress,
+                       GridLists& lists) {
+    constexpr std::uint64_t bricks_per_task = 256;
+    lists.blocks_are_float64 = !blocks_fit_float32(primitives);
+    const std::size_t bytes = lists.references.size() * lists.bytes_per_block_triangle();
+    PageArray<std::byte> blocks(bytes + triangle_block_padding);
+    std::fill_n(blocks.data() + bytes, triangle_block_padding, std::byte{});
+    const std::uint64_t bricks = lists.occupied.size();
+    const std::uint64_t tasks = (bricks + bricks_per_task - 1) / bricks_per_task;
+    std::atomic<std::uint64_t> done{0};
+    parallel.for_each(tasks, [&](std::uint64_t task) {
+        const std::uint64_t end = std::min(bricks, (task + 1) * bricks_per_task);
+        HWY_DYNAMIC_DISPATCH(write_blocks_kernel)
+        (primitives, lists, task * bricks_per_task * cells_per_brick, end * cells_per_brick, blocks.data());
+        progress.report(static_cast<double>(++done) / static_cast<double>(tasks), "grid: corners");
+    });
+    lists.blocks = std::move(blocks);
+    lists.references = PageArray<std::uint32_t>();
+}
+
+bool fits_blocks(const BuildInput& input, std::uint64_t bytes, std::uint64_t references) {
+    if (input.memory_limit == 0) return true;
+    const std::size_t per_triangle = blocks_fit_float32(input.primitives) ? TriangleBlock<float>::bytes_per_triangle
+                                                                          : TriangleBlock<double>::bytes_per_triangle;
+    return bytes + references * per_triangle <= input.memory_limit;
+}
+
+bool blocks_fit_float32(const Primitives& primitives) {
+    const auto& meshes = primitives.meshes();
+    return std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
+}
+
+} // namespace raywise
+#endif

@@ -1,0 +1,59 @@
+#include "accel/grid/grid_choice.h"
+#include "accel/grid/list_builder.h"
+
+namespace raywise {
+namespace {
+
+// Fixed, so that the result does not depend on the number of threads.
+constexpr std::uint32_t primitives_per_block = 1u << 13;
+
+// All primitives, in their order.
+class PrimitiveBlocks {
+public:
+    PrimitiveBlocks(const Primitives& primitives, const CellLattice& lattice, OverlapTest overlap_test)
+        : primitives_(primitives), lattice_(lattice), overlap_test_(overlap_test) {}
+
+    std::uint64_t blocks() const { return (primitives_.count() - 1) / primitives_per_block + 1; }
+    void find_pairs(std::uint64_t block, std::size_t most, CellPairs& pairs) const {
+        const auto begin = primitive(block, 0);
+        const std::uint32_t end = std::min(primitives_.count() - begin, primitives_per_block) + begin;
+        find_cell_pairs(primitives_, begin, end, lattice_, overlap_test_, most, pairs);
+    }
+    std::uint32_t primitive(std::uint64_t block, std::uint32_t place) const {
+        return static_cast<std::uint32_t>(block * primitives_per_block) + place;
+    }
+
+private:
+    const Primitives& primitives_;
+    const CellLattice& lattice_;
+    OverlapTest overlap_test_;
+};
+
+// False where there are more references than that, or the lists take more than input.memory_limit although there are cells to spare.
+bool build_lists(const BuildInput& input, const CellLattice& lattice, const GridOptions& options,
+                 std::uint64_t max_references, const ProgressPart& progress, GridLists& lists) {
+    const PrimitiveBlocks source(input.primitives, lattice, options.overlap_test);
+    const std::uint64_t expected = std::uint64_t{input.primitives.count()} * 5 / 2 + 64;
+    ListBuilder builder(input.parallel, progress, source, lattice.number_count, expected,
+                        options.max_narrow_references);
+    if (!builder.find_pairs(max_references)) return false;
+    if (input.memory_limit != 0 && builder.bytes() > input.memory_limit && lattice.cell_count() > 1) return false;
+    builder.sort_pairs(lists);
+    return true;
+}
+
+} // namespace
+
+CellLattice build_limited_lists(const BuildInput& input, const GridOptions& options, const ProgressPart& progress,
+                                GridLists& lists) {
+    const Box& bounds = input.primitives.bounds();
+    const std::uint64_t hittable = input.primitives.hittable_count();
+    double cells = options.density.value_or(density_for_many_rays) * static_cast<double>(hittable);
+    for (;; cells /= 4.0) { // with one cell everything fits
+        const CellLattice lattice(bounds, grid_resolution(bounds.size(), cells, 1.0));
+        const std::uint64_t most = lattice.cell_count() == 1 ? hittable : max_grid_references(hittable);
+        if (build_lists(input, lattice, options, most, progress, lists)) return lattice;
+    }
+}
+
+} // namespace raywise
