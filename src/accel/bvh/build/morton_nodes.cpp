@@ -27,6 +27,12 @@ constexpr int most_depth_of_codes = bvh_max_depth - 11;
 constexpr std::uint32_t largest_leaf = 16;
 static_assert(largest_leaf <= MortonRanges::padding);
 
+// Ranges of so few triangles are divided by number, in whole blocks: fuller blocks are fewer to write and to test, and their codes need not be
+// searched. Of 0 / 16 / 32 triangles: 1 / 0.97 / 0.91 of the time to build and 1 / 0.98 / 0.97 of the speed of rays. Where the codes divide them but
+// for the rounding to whole blocks, up to 16 / 32 / 64 / 128 triangles: 0.98 / 0.92 / 0.90 / 0.90 and 0.97 / 0.97 / 0.95 / 0.93. Where no range of at
+// most 12 / 16 is divided at all: 0.94 / 0.90 and 0.93 / 0.91. Geometric means over meshes and soup, AMD EPYC, 2026-12-01.
+constexpr std::uint32_t most_by_blocks = 32;
+
 // Corners are asked for by so many triangles at a time. Without it the dragon takes 57 ns per triangle, with 128 / 512 / 1,024 / 2,048 it takes
 // 53 / 49 / 45 / 46; what fits the second-level cache takes as long. AMD EPYC, 2026-12-01.
 constexpr std::uint32_t prefetched = 1024;
@@ -101,12 +107,15 @@ private:
         Bounds box;
     };
 
-    // By the highest digit in which codes differ, or by number where none does, or below the depth for codes.
+    // By the highest digit in which codes differ, or in whole blocks where none does, or too few triangles are left, or below the depth for codes.
     HWY_INLINE std::pair<MortonRange, MortonRange> divide(const MortonRange& range, bool by_codes) {
         const MortonKey* const keys = ranges_.keys();
         const std::uint32_t last = keys[range.end - 1].code;
         const std::uint32_t differing = keys[range.begin].code ^ last;
-        if (!by_codes || differing == 0) return ranges_.divide(range, range.begin + range.count() / 2);
+        if (!by_codes || differing == 0 || range.count() <= most_by_blocks) {
+            const std::uint32_t blocks = (range.count() + (triangle_block_size - 1)) / triangle_block_size;
+            return ranges_.divide(range, range.begin + blocks / 2 * triangle_block_size);
+        }
         const int digit = 31 - __builtin_clz(differing);
         const std::uint32_t below = count_below(keys + range.begin, range.count(), last >> digit << digit);
         return ranges_.divide(range, range.begin + below);

@@ -32,7 +32,6 @@ public:
             report(root.range.count());
         });
         bvh_.nodes = assemble(std::move(top.nodes), top.subtrees, input_.parallel);
-        bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
     }
 
