@@ -22,6 +22,20 @@ std::vector<Box> sampled_boxes(const Primitives& primitives) {
     return boxes;
 }
 
+// Around the middles that are not far off, and on each side as much wider as a sample may miss.
+Box box_of_most(const std::vector<Box>& boxes, const DenseRegion& region, const Box& bounds) {
+    constexpr double radii = 4.0;
+    constexpr double margin = 0.125;
+    Box most;
+    for (const Box& box : boxes) {
+        const Vec3 middle = box.center();
+        if (max_component(magnitudes(middle - region.center)) <= radii * region.radius) most.extend(middle);
+    }
+    if (most.empty()) return bounds;
+    const Vec3 wider(margin * max_component(most.size()));
+    return {glm::max(most.lower - wider, bounds.lower), glm::min(most.upper + wider, bounds.upper)};
+}
+
 double at_rank(std::vector<double>& values, std::size_t rank) {
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), nth, values.end());
@@ -37,6 +51,7 @@ DenseRegion dense_region(const Primitives& primitives) {
         if (primitives.bounds().empty()) return region;
         region.center = primitives.bounds().center();
         region.radius = max_component(primitives.bounds().size());
+        region.most = primitives.bounds();
         region.extent = primitives.largest_extent();
         return region;
     }
@@ -51,6 +66,7 @@ DenseRegion dense_region(const Primitives& primitives) {
     }
     for (std::size_t i = 0; i < n; ++i) values[i] = max_component(boxes[i].size());
     region.extent = at_rank(values, n / 2);
+    region.most = box_of_most(boxes, region, primitives.bounds());
     return region;
 }
 

@@ -8,11 +8,12 @@
 
 namespace raywise {
 
-// The median of the triangles' middles along each axis, how far around it four fifths of them lie, along any axis, and the median of their
-// largest extents.
+// The median of the triangles' middles along each axis, how far around it four fifths of them lie, along any axis, a box around most of them,
+// and the median of their largest extents.
 struct DenseRegion {
     Vec3 center{0.0};
     double radius = 0.0;
+    Box most;
     double extent = 0.0;
 };
 

@@ -76,8 +76,10 @@ struct WideBvh {
     PageArray<WideNode> nodes;   // the root first, every other one behind its parent; none when nothing can be hit
     PageArray<std::byte> blocks; // and triangle_block_padding
     bool is_float64 = false;
-    bool repeats = false;    // whether a primitive may be in several leaves
-    double built_cost = 0.0; // tree_cost() when it was built; geometry may have moved since (accel/bvh/refit.h)
+    bool repeats = false; // whether a primitive may be in several leaves
+    // Of one that was refitted: tree_cost() when it was built. Zero for one as it was built: adding up the areas of all boxes takes a fiftieth
+    // of the time of a Morton build, and hardly anybody asks.
+    double built_cost = 0.0;
 
     std::size_t bytes() const { return nodes.bytes() + blocks.bytes(); }
     std::size_t bytes_per_triangle() const {

@@ -38,7 +38,7 @@ public:
             if (is_fit_[n] == 0) is_fit_[n] = fit_inner_children(n, old_.nodes.size()) ? 1 : 0;
         }
         bvh_.repeats = old_.repeats;
-        bvh_.built_cost = old_.built_cost;
+        bvh_.built_cost = old_.built_cost > 0.0 ? old_.built_cost : tree_cost(old_, input_.parallel);
         return std::move(bvh_);
     }
 

@@ -67,9 +67,6 @@ public:
         Bounds box;    // as leaf_box() makes it of all of its triangles
         double extent; // of its triangles, along any axis
     };
-    // Asks for the corners of primitives that leaves will soon be written of: where those lie far from each other, that is what writing waits
-    // for.
-    void prefetch(const std::uint32_t* primitives, std::uint32_t count);
     // A leaf of `count` primitives that begins at triangle `first`.
     Leaf write(std::uint32_t first, const std::uint32_t* leaf, std::uint32_t count);
 

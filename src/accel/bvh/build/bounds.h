@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/bvh/binary_tree.h"
+#include "base/box.h"
 #include "base/lanes.h"
 
 #include <algorithm>
@@ -83,6 +84,10 @@ inline int longest_axis(const Bounds& bounds) {
     const Lanes extent = bounds.upper - bounds.lower;
     const int xy = extent[0] >= extent[1] ? 0 : 1;
     return extent[xy] >= extent[2] ? xy : 2;
+}
+
+inline Bounds bounds_of(const BoxF& box) {
+    return {Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f}, Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
 }
 
 inline Bounds bounds_of(const BvhNode& node) {

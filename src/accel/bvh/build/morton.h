@@ -18,7 +18,8 @@ struct MortonKey {
 
 // A grid of cubes, 2^10 along the longest axis: where cells are as flat as a terrain, so are the boxes of what they hold, and a Morton tree of
 // it is traced at 0.75 instead of 0.9 of the bvh's speed (diffuse rays, two million triangles; AMD EPYC, 2026-12-01). What lies outside its
-// bounds belongs to the cells along the border.
+// bounds belongs to the cells along the border. They should be those of most triangles (accel/dense_region.h): a curve over all of a scene would
+// follow one axis alone where something lies far off along the two others, and terrain with a stray corner at the origin be cut into layers.
 class MortonGrid {
 public:
     static constexpr int bits_per_axis = 10;
@@ -35,16 +36,6 @@ public:
             divides_ = divides_ || divides;
         }
     }
-    // Over where most of what is in `all` lies: within a radius of the center. A curve over all of a scene would follow one axis alone where
-    // something lies far off along the two others: terrain with a stray corner at the origin would be cut into layers.
-    static MortonGrid over_most(const Bounds& all, const Vec3& center, double radius) {
-        constexpr double radii = 4.0;
-        const Vec3f c(center);
-        const Lanes middle{c.x, c.y, c.z, 0.0f};
-        const Lanes reach = fill_lanes(static_cast<float>(std::min(radii * radius, 0x1p126)));
-        return MortonGrid({max_lanes(all.lower, middle - reach), min_lanes(all.upper, middle + reach)});
-    }
-
     bool divides() const { return divides_; }
     std::uint32_t code(const Lanes& centroid) const {
         const Lanes position = (centroid * unit_ - lower_) * scale_;

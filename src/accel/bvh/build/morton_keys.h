@@ -36,4 +36,16 @@ inline constexpr int morton_code_bits = 3 * MortonGrid::bits_per_axis + 2;
 void write_morton_keys(const Primitives& primitives, std::uint32_t first, std::uint32_t end, const SceneFrame& frame,
                        const MortonGrid& grid, const SizeLimits& sizes, MortonKey* keys);
 
+// Middles of boxes in the coordinates of a frame, by sixteen: their x, then their y and z.
+inline constexpr std::uint32_t middles_at_once = 16;
+inline std::size_t middle_lines_size(std::uint32_t count) {
+    return std::size_t{3} * ((count + middles_at_once - 1) / middles_at_once * middles_at_once);
+}
+
+// Of the primitives of so many keys; the last one's again in the places that are left.
+void write_middles(const Primitives& primitives, const SceneFrame& frame, const MortonKey* keys, std::uint32_t count,
+                   float* lines);
+// Gives keys the codes of their middles, on a grid around those. Returns false where all are at one place.
+bool write_codes(const float* lines, std::uint32_t count, MortonKey* keys);
+
 } // namespace raywise

@@ -49,11 +49,9 @@ BuildReferences gather_references(const BuildInput& input, const SceneFrame& fra
     references.items = PageArray<BuildItem>(references.count);
     references.keys = PageArray<MortonKey>(references.count);
     const BoxF box = round_outwards(SceneFrame::relative(primitives.bounds(), center));
-    const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f},
-                     Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
-    const DenseRegion dense = dense_region(primitives);
-    const auto grid = MortonGrid::over_most(all, dense.center - center, dense.radius);
-    references.bounds = all;
+    references.bounds = bounds_of(box);
+    const Box most = dense_region(primitives).most;
+    const MortonGrid grid(bounds_of(BoxF{Vec3f(most.lower - center), Vec3f(most.upper - center)}));
     const bool exact = center == Vec3(0.0);
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;
     input.parallel.for_each(chunks, [&](std::uint64_t chunk) {

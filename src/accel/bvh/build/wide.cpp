@@ -79,7 +79,6 @@ public:
             input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
         });
         bvh_.nodes = assemble(std::move(top_), subtrees_, input_.parallel);
-        bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
     }
 
