@@ -1,5 +1,7 @@
 #include "accel/kdtree/treelets.h"
 
+#include "accel/kdtree/treelet_cuts.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -21,8 +23,8 @@ struct PlacedLeaf {
 // Fills one treelet after the other, in the order of a walk: what is below a cell follows the cell's treelet.
 class TreeletMaker {
 public:
-    TreeletMaker(const KdTreeData& tree, std::size_t bytes_per_triangle)
-        : tree_(tree), bytes_per_triangle_(bytes_per_triangle) {}
+    TreeletMaker(const KdTreeData& tree, const BoxF& bounds, std::size_t bytes_per_triangle)
+        : tree_(tree), cuts_(tree, bounds), bytes_per_triangle_(bytes_per_triangle) {}
 
     void make() {
         waiting_.push_back({0, no_treelet, 0});
@@ -33,7 +35,7 @@ public:
             if (next.treelet != no_treelet) treelets[next.treelet].cell[next.cell] = KdLink::treelet(index);
             treelets.emplace_back();
             start(treelets.back());
-            fill(index, 0, next.node);
+            fill(index, 0, treelet_levels, next.node);
         }
     }
 
@@ -57,23 +59,25 @@ private:
         treelet.shape = KdTreelet::shape_of_none;
     }
 
-    // place: of a plane, or treelet_planes + a cell.
-    void fill(std::uint32_t index, std::uint32_t place, std::uint32_t node) {
+    // place: of a plane, with so many levels from it on, or treelet_planes + a cell, with none.
+    void fill(std::uint32_t index, std::uint32_t place, int levels, std::uint32_t node) {
         const KdNode& n = tree_.nodes[node];
+        const bool is_plane = !n.is_leaf() && levels > 0 && (place == 0 || !cuts_.begins(node, levels));
+        if (is_plane) {
+            treelets[index].split[place] = n.split();
+            treelets[index].shape |= static_cast<std::uint32_t>(n.axis()) << 2 * place;
+            fill(index, 2 * place + 1, levels - 1, n.child());
+            fill(index, 2 * place + 2, levels - 1, n.child() + 1);
+            return;
+        }
+        while (place < treelet_planes) place = 2 * place + 1; // the first of the cells that it stands for
+        const std::uint32_t cell = place - treelet_planes;
         if (n.is_leaf()) {
-            while (place < treelet_planes) place = 2 * place + 1;
-            if (n.count() > 0) set_cell(index, place - treelet_planes, place_leaf(n));
-            return;
+            if (n.count() > 0) set_cell(index, cell, place_leaf(n));
+        } else {
+            set_cell(index, cell, KdLink());
+            waiting_.push_back({node, index, cell});
         }
-        if (place >= treelet_planes) {
-            set_cell(index, place - treelet_planes, KdLink());
-            waiting_.push_back({node, index, place - treelet_planes});
-            return;
-        }
-        treelets[index].split[place] = n.split();
-        treelets[index].shape |= static_cast<std::uint32_t>(n.axis()) << 2 * place;
-        fill(index, 2 * place + 1, n.child());
-        fill(index, 2 * place + 2, n.child() + 1);
     }
 
     void set_cell(std::uint32_t index, std::uint32_t cell, KdLink link) {
@@ -90,6 +94,7 @@ private:
     }
 
     const KdTreeData& tree_;
+    const TreeletCuts cuts_;
     const std::size_t bytes_per_triangle_;
     std::vector<Waiting> waiting_;
 };
@@ -178,7 +183,8 @@ KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double
     const auto& meshes = input.primitives.meshes();
     result.is_float64 = !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
 
-    TreeletMaker maker(tree, result.is_float64 ? TriangleBlock<double>::bytes_per_triangle
+    TreeletMaker maker(tree, result.bounds,
+                       result.is_float64 ? TriangleBlock<double>::bytes_per_triangle
                                                : TriangleBlock<float>::bytes_per_triangle);
     maker.make();
     if (maker.leaf_bytes > KdLink::most_leaf_bytes) {

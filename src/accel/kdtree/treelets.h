@@ -35,7 +35,7 @@ private:
     explicit KdLink(std::uint32_t bits) : bits_(bits) {}
     static constexpr std::uint32_t leaf_bit = 1u << 31;
 
-    std::uint32_t bits_ = 0;
+    std::uint32_t bits_; // not initialised: stacks are full of them
 };
 
 inline constexpr std::uint32_t treelet_cells = 8;
