@@ -24,7 +24,7 @@ struct KdTreeOptions {
     // The part by which a split that cuts off empty space counts as cheaper.
     double empty_bonus = 0.2;
     // Splits on one path that seem to make things worse, in the hope of a good one after them: at most so many.
-    int most_bad_splits = 1;
+    int most_bad_splits = 0;
 
     // Whether a primitive on both sides of a plane is cut, so that each side knows where its part ends ("perfect splits").
     bool clips = true;

@@ -47,9 +47,9 @@ struct KdInterval {
 
 // What a ray makes of planes across each axis.
 struct KdAxes {
-    float inverse[4];
-    float entry_offset[4];
-    float exit_offset[4];
+    float inverse[3];
+    float entry_offset[3];
+    float exit_offset[3];
 
     HWY_INLINE KdAxes(const TraversalRay& ray, float hit_error) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -58,7 +58,6 @@ struct KdAxes {
             entry_offset[axis] = ray.entry_offset[axis] + least;
             exit_offset[axis] = ray.exit_offset[axis] - least - hit_error;
         }
-        inverse[3] = entry_offset[3] = exit_offset[3] = 0.0f;
     }
 
     HWY_INLINE KdInterval within(const BoxF& bounds, KdInterval interval) const {
@@ -88,9 +87,9 @@ class TreeletTest {
 public:
     HWY_INLINE explicit TreeletTest(const KdAxes& axes) {
         const TreeletLanes d;
-        const auto inverse = hn::LoadDup128(d, axes.inverse);
-        const auto entry_offset = hn::LoadDup128(d, axes.entry_offset);
-        const auto exit_offset = hn::LoadDup128(d, axes.exit_offset);
+        const Vector inverse = by_axis(axes.inverse);
+        const Vector entry_offset = by_axis(axes.entry_offset);
+        const Vector exit_offset = by_axis(axes.exit_offset);
         // Cells above a plane in their own order, for a ray that runs backwards in the other: which of them it enters through the plane.
         const auto is_above = hn::Not(hn::FirstN(d, 4));
         const auto enters = hn::Xor(hn::Lt(inverse, hn::Zero(d)), is_above);
@@ -126,6 +125,17 @@ private:
         Vector far;
     };
 
+    // Twice x y z and anything. Numbers are read one by one, as they have been written: a wider read would wait for them to reach the cache (a
+    // store-forwarding stall).
+    static HWY_INLINE Vector by_axis(const float* numbers) {
+        const TreeletLanes d;
+        alignas(32) static constexpr float axes[treelet_cells] = {0, 1, 2, 0, 0, 1, 2, 0};
+        const Vector axis = hn::Load(d, axes);
+        const Vector xy =
+            hn::IfThenElse(hn::Eq(axis, hn::Set(d, 1.0f)), hn::Set(d, numbers[1]), hn::Set(d, numbers[0]));
+        return hn::IfThenElse(hn::Eq(axis, hn::Set(d, 2.0f)), hn::Set(d, numbers[2]), xy);
+    }
+
     // The planes of one level as each cell sees them.
     template <int number>
     HWY_INLINE Level level(hn::VFromD<Indices> shape, Vector split) const {
@@ -140,8 +150,9 @@ private:
         const auto axis = hn::And(hn::Shr(shape, hn::Load(du, shifts[number])), hn::Set(du, 3));
         const auto side = hn::IndicesFromVec(d, hn::Or(axis, hn::Load(du, above[number])));
         const auto plane = hn::TableLookupLanes(split, hn::IndicesFromVec(d, hn::Load(du, planes[number])));
-        return {hn::MulSub(plane, hn::TableLookupLanes(entry_inverse_, side), hn::TableLookupLanes(entry_offset_, side)),
-                hn::MulSub(plane, hn::TableLookupLanes(exit_inverse_, side), hn::TableLookupLanes(exit_offset_, side))};
+        return {
+            hn::MulSub(plane, hn::TableLookupLanes(entry_inverse_, side), hn::TableLookupLanes(entry_offset_, side)),
+            hn::MulSub(plane, hn::TableLookupLanes(exit_inverse_, side), hn::TableLookupLanes(exit_offset_, side))};
     }
 
     // By axis, for cells below a plane and for those above: what entering or leaving through it makes of a plane; nothing that bounds where
@@ -274,7 +285,8 @@ HWY_INLINE void walk_kd_tree(Traced& traced, const KdAxes& axes, KdInterval part
                         if (in_order && cells.near[other] < cells.near[next]) std::swap(other, next);
                         KdWaiting* place = top++;
                         if (in_order) {
-                            for (; place > bottom && place[-1].part.near < cells.near[other]; --place) *place = place[-1];
+                            for (; place > bottom && place[-1].part.near < cells.near[other]; --place)
+                                *place = place[-1];
                         }
                         *place = {treelet.cell[other], {cells.near[other], cells.far[other]}};
                         prefetch_cell(tree, treelet.cell[other]);

@@ -146,9 +146,9 @@ void write_leaf(const std::uint32_t* list, std::uint32_t count, const Vec3& cent
     }
     // Up by more than the difference was rounded by.
     const double distance = smaller(farthest * (1.0 + 0x1p-50), std::numeric_limits<double>::max());
-    const KdLeafHead head{distance > std::numeric_limits<float>::max() ? std::numeric_limits<float>::infinity()
-                                                                       : round_up(distance),
-                          count};
+    const KdLeafHead head{
+        distance > std::numeric_limits<float>::max() ? std::numeric_limits<float>::infinity() : round_up(distance),
+        count};
     std::memcpy(leaf, &head, sizeof head);
 }
 
@@ -183,9 +183,9 @@ KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double
     const auto& meshes = input.primitives.meshes();
     result.is_float64 = !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
 
-    TreeletMaker maker(tree, result.bounds,
-                       result.is_float64 ? TriangleBlock<double>::bytes_per_triangle
-                                               : TriangleBlock<float>::bytes_per_triangle);
+    TreeletMaker maker(
+        tree, result.bounds,
+        result.is_float64 ? TriangleBlock<double>::bytes_per_triangle : TriangleBlock<float>::bytes_per_triangle);
     maker.make();
     if (maker.leaf_bytes > KdLink::most_leaf_bytes) {
         result.too_large = true;

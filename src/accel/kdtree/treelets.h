@@ -25,7 +25,7 @@ public:
     }
 
     bool is_leaf() const { return (bits_ & leaf_bit) != 0; }
-    std::uint32_t index() const { return bits_; }                                                       // of the treelet
+    std::uint32_t index() const { return bits_; }                                          // of the treelet
     std::size_t offset() const { return std::size_t{bits_ & ~leaf_bit} * leaf_alignment; } // of the leaf, in bytes
 
     static constexpr std::size_t leaf_alignment = 8;
@@ -51,7 +51,8 @@ struct alignas(64) KdTreelet {
     KdLink cell[treelet_cells];
 
     static constexpr float no_plane = 0x1p100f;
-    static constexpr std::uint32_t present_shift = 14; // below are two bits for each plane's axis, above a bit for each cell that is there
+    static constexpr std::uint32_t present_shift =
+        14; // below are two bits for each plane's axis, above a bit for each cell that is there
     static constexpr std::uint32_t shape_of_none = 0x20000000u;
 
     int axis(std::uint32_t plane) const { return static_cast<int>(shape >> 2 * plane & 3u); }
@@ -69,8 +70,8 @@ static_assert(sizeof(KdLeafHead) == KdLink::leaf_alignment);
 
 struct KdTreelets {
     SceneFrame frame;
-    BoxF bounds;            // of what is in it, in the frame, rounded outwards
-    float hit_error = 0.0f; // what a hit's distance may be off by, in the frame: see traverse-inl.h
+    BoxF bounds;                   // of what is in it, in the frame, rounded outwards
+    float hit_error = 0.0f;        // what a hit's distance may be off by, in the frame: see traverse-inl.h
     PageArray<KdTreelet> treelets; // the root first; none when nothing can be hit
     PageArray<std::byte> leaves;   // and triangle_block_padding
     bool is_float64 = false;

@@ -22,9 +22,7 @@ struct BinCounts {
             ++ends[copy][axis][static_cast<std::size_t>(upper[axis])];
         }
     }
-    std::uint32_t begin(std::size_t axis, std::size_t bin) const {
-        return begins[0][axis][bin] + begins[1][axis][bin];
-    }
+    std::uint32_t begin(std::size_t axis, std::size_t bin) const { return begins[0][axis][bin] + begins[1][axis][bin]; }
     std::uint32_t end(std::size_t axis, std::size_t bin) const { return ends[0][axis][bin] + ends[1][axis][bin]; }
 };
 
@@ -52,9 +50,8 @@ public:
                   bool flat_below) {
         const auto plane = static_cast<double>(position);
         if (!areas.contains(plane)) return;
-        const double tests =
-            costs_.kept(below, above) *
-            (costs_.tests(below) * areas.below(plane) + costs_.tests(above) * areas.above(plane));
+        const double tests = costs_.kept(below, above) *
+                             (costs_.tests(below) * areas.below(plane) + costs_.tests(above) * areas.above(plane));
         if (tests < best.tests) best = {tests, axis, position, flat_below};
     }
 

@@ -56,9 +56,9 @@ double KdEventBuilder::split(const KdTask& task, const KdPlane& plane, bool is_b
     const double cost_above = build(sides.above, child + 1, above_begin);
     for (std::size_t axis = 0; axis < 3; ++axis) events_[axis].resize(above_begin[axis]);
     const double cost_below = build(sides.below, child, begin);
-    const double cost = costs.step + (sides.below.cell.half_area() * cost_below +
-                                      sides.above.cell.half_area() * cost_above) /
-                                         task.cell.half_area();
+    const double cost =
+        costs.step +
+        (sides.below.cell.half_area() * cost_below + sides.above.cell.half_area() * cost_above) / task.cell.half_area();
     if (!is_bad || cost < costs.leaf(task.count)) return cost;
     output_.go_back(before);
     output_.set_leaf(node, own);
@@ -114,8 +114,8 @@ void KdEventBuilder::cut(const KdTask& task, const KdPlane& plane, const Begin& 
         sides.below.count += side == below ? 1 : 0;
         sides.above.count += side == above ? 1 : 0;
         if (side != both) continue;
-        const SideBoxes parts = context_.clipper.clip(primitives_[number], task.cell, plane.axis,
-                                                      static_cast<double>(plane.position));
+        const SideBoxes parts =
+            context_.clipper.clip(primitives_[number], task.cell, plane.axis, static_cast<double>(plane.position));
         if (!parts.below.empty()) {
             add_events(new_below_, rounded_bounds(parts.below), number);
             ++sides.below.count;

@@ -12,7 +12,9 @@ constexpr unsigned key_bits = 34;
 constexpr std::size_t digits = (key_bits + digit_bits - 1) / digit_bits;
 constexpr std::size_t digit_values = std::size_t{1} << digit_bits;
 
-std::size_t digit_of(KdEvent event, std::size_t digit) { return event.key() >> digit * digit_bits & (digit_values - 1); }
+std::size_t digit_of(KdEvent event, std::size_t digit) {
+    return event.key() >> digit * digit_bits & (digit_values - 1);
+}
 
 // Fewer are sorted by comparisons.
 constexpr std::size_t fewest_to_count = 64;

@@ -19,8 +19,7 @@ BuildItem item_of(const CornersF& c, float scale) {
 }
 
 BuildItem item_of(const Corners& c, const SceneFrame& frame) {
-    const Box relative =
-        frame.relative({glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))});
+    const Box relative = frame.relative({glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))});
     return rounded_bounds({relative.lower * frame.scale(), relative.upper * frame.scale()}).item(0, 1);
 }
 
