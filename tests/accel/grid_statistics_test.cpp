@@ -7,15 +7,9 @@
 namespace raywise {
 namespace {
 
-std::vector<std::uint32_t> offsets_of(const std::vector<std::uint32_t>& counts) {
-    std::vector<std::uint32_t> offsets{0};
-    for (const std::uint32_t count : counts) offsets.push_back(offsets.back() + count);
-    return offsets;
-}
-
 TEST(GridStatistics, FollowsTheEquations) {
     // Counts 0, 0, 1, 3: mean 1, distances -1, -1, 0, 2; squares sum to 6, cubes to 6, fourth powers to 18.
-    const GridStatistics s = grid_statistics({2, 2, 1}, offsets_of({0, 0, 1, 3}));
+    const GridStatistics s = grid_statistics({2, 2, 1}, {0, 0, 1, 3});
     EXPECT_EQ(s.resolution, (std::array<std::uint32_t, 3>{2, 2, 1}));
     EXPECT_EQ(s.cells, 4u);
     EXPECT_EQ(s.empty_cells, 2u);
@@ -30,7 +24,7 @@ TEST(GridStatistics, FollowsTheEquations) {
 }
 
 TEST(GridStatistics, IsSymmetricWhereTheCountsAre) {
-    const GridStatistics s = grid_statistics({5, 1, 1}, offsets_of({1, 2, 3, 4, 5}));
+    const GridStatistics s = grid_statistics({5, 1, 1}, {1, 2, 3, 4, 5});
     EXPECT_DOUBLE_EQ(s.sparseness, 0.0);
     EXPECT_DOUBLE_EQ(s.mean, 3.0);
     EXPECT_DOUBLE_EQ(s.variance, 2.5);
@@ -40,7 +34,7 @@ TEST(GridStatistics, IsSymmetricWhereTheCountsAre) {
 
 TEST(GridStatistics, HasNoShapeWithoutSpread) {
     for (const auto& counts : {std::vector<std::uint32_t>{7}, {4, 4, 4}, {0, 0}}) {
-        const GridStatistics s = grid_statistics({static_cast<std::uint32_t>(counts.size()), 1, 1}, offsets_of(counts));
+        const GridStatistics s = grid_statistics({static_cast<std::uint32_t>(counts.size()), 1, 1}, counts);
         EXPECT_EQ(s.mean, counts[0]);
         EXPECT_EQ(s.variance, 0.0);
         EXPECT_EQ(s.standard_deviation, 0.0);
@@ -60,7 +54,7 @@ TEST(GridStatistics, IsZeroWithoutCells) {
 TEST(GridStatistics, IsStable) {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t i = 0; i < 42; ++i) counts.push_back(100'000'000 + i % 2);
-    const GridStatistics s = grid_statistics({42, 1, 1}, offsets_of(counts));
+    const GridStatistics s = grid_statistics({42, 1, 1}, counts);
     EXPECT_DOUBLE_EQ(s.mean, 100'000'000.5);
     EXPECT_DOUBLE_EQ(s.variance, 42.0 / 41.0 / 4.0);
     EXPECT_NEAR(s.skewness, 0.0, 1e-12);

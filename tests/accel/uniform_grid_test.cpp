@@ -1,11 +1,25 @@
 #include "accel/grid/uniform_grid.h"
 
 #include "accel/grid_kd_testing.h"
+#include "geometry/triangle_box_overlap.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
 
 namespace raywise {
 namespace {
 
 using namespace grid_kd_testing;
+
+void expect_same_lists(const UniformGrid& a, const UniformGrid& b) {
+    ASSERT_EQ(a.lattice().resolution, b.lattice().resolution);
+    ASSERT_EQ(a.lists().references.size(), b.lists().references.size());
+    EXPECT_TRUE(std::equal(a.lists().references.begin(), a.lists().references.end(), b.lists().references.begin()));
+    for (std::uint64_t cell = 0; a.lattice().number_count > 0 && cell <= a.lattice().number_count; ++cell) {
+        ASSERT_EQ(a.lists().offset(cell), b.lists().offset(cell));
+    }
+}
 
 class UniformGridOn : public ::testing::TestWithParam<NamedSoup> {};
 
@@ -18,9 +32,34 @@ TEST_P(UniformGridOn, AnswersAsTheLinearScan) {
 TEST_P(UniformGridOn, AnswersAsTheLinearScanAtOtherDensities) {
     World world(GetParam().make());
     for (const double density : {0.1, 50.0}) {
-        const UniformGrid grid(world.input(), density);
+        GridOptions options;
+        options.density = density;
+        const UniformGrid grid(world.input(), options);
         expect_scan_answers(world, grid, 102);
     }
+}
+
+TEST_P(UniformGridOn, AnswersAsTheLinearScanWithOtherSwitches) {
+    World world(GetParam().make());
+    for (const OverlapTest overlap_test : {OverlapTest::none, OverlapTest::all}) {
+        GridOptions options;
+        options.overlap_test = overlap_test;
+        options.mailboxes = overlap_test == OverlapTest::all;
+        const UniformGrid grid(world.input(), options);
+        expect_scan_answers(world, grid, 103);
+    }
+}
+
+TEST_P(UniformGridOn, IsTheSameWithWideOffsets) {
+    World world(GetParam().make());
+    const UniformGrid narrow(world.input());
+    GridOptions options;
+    options.max_narrow_references = 0;
+    const UniformGrid wide(world.input(), options);
+    EXPECT_EQ(wide.lists().is_wide(), world.primitives().hittable_count() > 0);
+    EXPECT_FALSE(narrow.lists().is_wide());
+    expect_same_lists(narrow, wide);
+    if (world.soup().size() < 1000) expect_scan_answers(world, wide, 104);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, UniformGridOn, ::testing::ValuesIn(hard_scenes()),
@@ -30,7 +69,7 @@ TEST(UniformGrid, HasNoCellsWithoutPrimitives) {
     World world({});
     const UniformGrid grid(world.input());
     EXPECT_EQ(grid.statistics().cells, 0u);
-    EXPECT_EQ(grid.resolution(), (std::array<std::uint32_t, 3>{0, 0, 0}));
+    EXPECT_EQ(grid.lattice().resolution, (std::array<std::uint32_t, 3>{0, 0, 0}));
 }
 
 TEST(UniformGrid, AnswersAsTheLinearScanForNextToAxisParallelRays) { expect_scan_answers_next_to_axes<UniformGrid>(); }
@@ -42,17 +81,38 @@ TEST(UniformGrid, IsTheSameForAnyNumberOfThreads) {
     const UniformGrid a(one.input());
     const UniformGrid b(two.input());
     EXPECT_EQ(a.bytes(), b.bytes());
-    EXPECT_EQ(a.offsets(), b.offsets());
-    EXPECT_EQ(a.references(), b.references());
+    expect_same_lists(a, b);
 }
 
-TEST(UniformGrid, ListsPrimitivesInOrder) {
+TEST(UniformGrid, ListsPrimitivesInTheCellsThatTheyOverlapAndOnce) {
     World world(random_soup(3000, 0.05, 32));
-    const UniformGrid grid(world.input());
-    for (std::size_t cell = 0; cell + 1 < grid.offsets().size(); ++cell) {
-        for (std::uint32_t i = grid.offsets()[cell] + 1; i < grid.offsets()[cell + 1]; ++i) {
-            ASSERT_LT(grid.references()[i - 1], grid.references()[i]);
+    for (const OverlapTest overlap_test : {OverlapTest::none, OverlapTest::large, OverlapTest::all}) {
+        GridOptions options;
+        options.overlap_test = overlap_test;
+        const UniformGrid grid(world.input(), options);
+        const CellLattice& lattice = grid.lattice();
+        std::set<std::pair<std::uint32_t, std::uint32_t>> listed; // cell, primitive
+        for (std::uint32_t cell = 0; cell < lattice.number_count; ++cell) {
+            for (std::uint64_t i = grid.lists().offset(cell); i < grid.lists().offset(cell + 1); ++i) {
+                EXPECT_TRUE(listed.insert({cell, grid.lists().references[i]}).second);
+            }
+            const bool occupied = (grid.lists().occupied[cell / 64] >> (cell % 64) & 1u) != 0;
+            EXPECT_EQ(occupied, grid.lists().count(cell) > 0);
         }
+        std::size_t in_boxes = 0;
+        for (std::uint32_t i = 0; i < world.soup().size(); ++i) {
+            Corners corners = world.soup()[i];
+            for (Vec3& p : corners) p = (p - lattice.bounds.lower) * lattice.cells_per_unit;
+            const CellRange range = bounding_cells(corners, lattice.resolution);
+            in_boxes += static_cast<std::size_t>(range.extent(0) * range.extent(1) * range.extent(2));
+            for_each_overlapped_cell(corners, range, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+                const std::uint32_t cell = lattice.number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                                          static_cast<std::uint32_t>(z));
+                EXPECT_EQ(listed.count({cell, i}), 1u);
+            });
+        }
+        EXPECT_GE(in_boxes, listed.size());
+        EXPECT_EQ(overlap_test == OverlapTest::none, in_boxes == listed.size());
     }
 }
 
@@ -67,9 +127,9 @@ TEST(UniformGrid, CountsReferencesInItsStatistics) {
     World world(cubes(5));
     const UniformGrid grid(world.input());
     const GridStatistics statistics = grid.statistics();
-    EXPECT_EQ(statistics.references, grid.references().size());
-    EXPECT_EQ(statistics.cells + 1, grid.offsets().size());
-    EXPECT_EQ(statistics.resolution, grid.resolution());
+    EXPECT_EQ(statistics.references, grid.lists().references.size());
+    EXPECT_EQ(statistics.cells, grid.lattice().cell_count());
+    EXPECT_EQ(statistics.resolution, grid.lattice().resolution);
 }
 
 TEST(UniformGrid, StopsWhenAsked) {
@@ -89,6 +149,34 @@ TEST(UniformGrid, ReportsProgressFromZeroToOne) {
     for (std::size_t i = 0; i < fractions.size(); ++i) {
         EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
         EXPECT_LE(fractions[i], 1.0);
+    }
+}
+
+// ---- the lattice ----
+
+TEST(CellLattice, NumbersCellsOnceEachAndBricksTogether) {
+    for (const std::array<std::uint32_t, 3>& resolution : {std::array<std::uint32_t, 3>{1, 1, 1},
+                                                           {4, 4, 4},
+                                                           {5, 9, 13},
+                                                           {1, 20, 20},
+                                                           {17, 1, 3},
+                                                           {2, 2, 200},
+                                                           {130, 1, 1}}) {
+        const CellLattice lattice({Vec3(0.0), Vec3(1.0)}, resolution);
+        EXPECT_EQ(lattice.number_count % cells_per_brick, 0u);
+        std::set<std::uint32_t> numbers;
+        for (std::uint32_t z = 0; z < resolution[2]; ++z) {
+            for (std::uint32_t y = 0; y < resolution[1]; ++y) {
+                for (std::uint32_t x = 0; x < resolution[0]; ++x) numbers.insert(lattice.number(x, y, z));
+            }
+        }
+        EXPECT_EQ(numbers.size(), lattice.cell_count());
+        EXPECT_LT(*numbers.rbegin(), lattice.number_count);
+        EXPECT_LE(lattice.number_count, std::max<std::uint64_t>(64, 4 * lattice.cell_count()));
+        const std::array<std::uint32_t, 3>& last = resolution;
+        EXPECT_EQ(lattice.number(0, 0, 0), 0u);
+        EXPECT_EQ(lattice.number(std::min(1u, last[0] - 1), std::min(1u, last[1] - 1), std::min(1u, last[2] - 1)) / 64,
+                  0u);
     }
 }
 

@@ -17,7 +17,7 @@
 //   next plane lies beyond the last possible one, both by the ray's margin (ray/cell_ray.h). So the moment lies between start and end.
 #pragma once
 
-#include "base/box.h"
+#include "accel/grid/cell_lattice.h"
 #include "ray/cell_ray.h"
 
 #include <algorithm>
@@ -28,14 +28,6 @@
 #include <limits>
 
 namespace raywise {
-
-// Equal cells of a box. Cell (i, j, k) is number i + resolution[0] * (j + resolution[1] * k).
-struct CellLattice {
-    Box bounds{Vec3(0.0), Vec3(0.0)};
-    std::array<std::uint32_t, 3> resolution{};
-    Vec3 cells_per_unit{0.0}; // 0 along an axis with one cell
-    Vec3 width{0.0};          // of a cell
-};
 
 class CellWalk {
 public:
@@ -57,18 +49,16 @@ public:
         }
         enters_ = near <= last_s_;
         if (!enters_) return;
-        std::int64_t stride = 1;
         for (int axis = 0; axis < 3; ++axis) {
             Course& course = axis == 0 ? x_ : axis == 1 ? y_ : z_;
-            cell_ += stride * course.begin(ray, lattice, axis, near);
-            course.stride *= stride;
-            stride *= lattice.resolution[static_cast<std::size_t>(axis)];
+            course.begin(ray, lattice, axis, near);
+            cell_ += course.number;
         }
     }
 
     // Whether the ray meets the box of all cells at all; else there is no cell.
     bool enters() const { return enters_; }
-    std::size_t cell() const { return static_cast<std::size_t>(cell_); }
+    std::uint32_t cell() const { return cell_; } // its number
     // No hit behind s is of use any more.
     void end_at(double s) { last_s_ = std::min(last_s_, s); }
 
@@ -93,12 +83,14 @@ private:
         double step = 0.0;      // 1 or -1
         double a = 0.0;         // T(i) = a + i * b
         double b = 0.0;
-        std::int64_t stride = 0; // from cell to cell, in cell numbers
+        std::int32_t place = 0; // of the cell along the axis
+        std::int32_t place_step = 0;
+        std::uint32_t number = 0; // what the place adds to the cell's number
+        AxisNumbers numbers;
 
-        // Returns where the walk begins: the cell's place along the axis.
-        std::int64_t begin(const CellRay& ray, const CellLattice& lattice, int axis, double start) {
+        void begin(const CellRay& ray, const CellLattice& lattice, int axis, double start) {
             const std::uint32_t count = lattice.resolution[static_cast<std::size_t>(axis)];
-            if (count == 1) return 0;
+            if (count == 1) return;
             const double d = ray.direction[axis];
             const double lower = lattice.bounds.lower[axis];
             const double highest = count - 1.0;
@@ -121,24 +113,29 @@ private:
                     plane = at;
                     last = 0.0;
                 }
-                stride = d > 0.0 ? 1 : -1;
+                place_step = d > 0.0 ? 1 : -1;
                 if (plane != last) next = distance(plane);
             }
-            return static_cast<std::int64_t>(at);
+            numbers = lattice.numbers[static_cast<std::size_t>(axis)];
+            place = static_cast<std::int32_t>(at);
+            number = numbers(static_cast<std::uint32_t>(place));
         }
         double distance(double i) const { return a + i * b; }
     };
 
     bool cross(Course& course) {
         if (course.next > last_s_) return false; // which is finite: the walk ends
-        cell_ += course.stride;
+        course.place += course.place_step;
+        const std::uint32_t number = course.numbers(static_cast<std::uint32_t>(course.place));
+        cell_ += number - course.number;
+        course.number = number;
         course.plane += course.step;
         course.next = course.plane == course.last ? infinity : course.distance(course.plane);
         return true;
     }
 
     Course x_, y_, z_;
-    std::int64_t cell_ = 0;
+    std::uint32_t cell_ = 0;
     double last_s_; // the s behind which no hit is of use
     bool enters_ = false;
 };

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace raywise {
 
 GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution,
-                               const std::vector<std::uint32_t>& offsets) {
+                               const std::vector<std::uint32_t>& counts) {
     GridStatistics result;
-    if (offsets.size() < 2) return result;
+    if (counts.empty()) return result;
     result.resolution = resolution;
-    result.cells = offsets.size() - 1;
-    result.references = offsets.back() - offsets.front();
-    for (std::size_t i = 0; i < result.cells; ++i) {
-        const std::uint64_t count = offsets[i + 1] - offsets[i];
+    result.cells = counts.size();
+    for (const std::uint64_t count : counts) {
+        result.references += count;
         result.empty_cells += count == 0 ? 1 : 0;
         result.max_references = std::max(result.max_references, count);
     }
@@ -27,8 +25,8 @@ GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution,
     double square = 0.0;
     double cube = 0.0;
     double fourth = 0.0;
-    for (std::size_t i = 0; i < result.cells; ++i) {
-        const double distance = static_cast<double>(offsets[i + 1] - offsets[i]) - result.mean;
+    for (const std::uint32_t count : counts) {
+        const double distance = static_cast<double>(count) - result.mean;
         const double squared = distance * distance;
         square += squared;
         cube += squared * distance;

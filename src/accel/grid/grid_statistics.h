@@ -23,8 +23,8 @@ struct GridStatistics {
     double kurtosis = 0.0; // eq. 6: fourth standardized moment, over t, minus 3; 0 when all cells hold the same number
 };
 
-// offsets: where the references of each cell begin, and the end of the last cell's; cells + 1 numbers, or none.
+// counts: the references of each cell, in any order. Allocates nothing.
 GridStatistics grid_statistics(const std::array<std::uint32_t, 3>& resolution,
-                               const std::vector<std::uint32_t>& offsets);
+                               const std::vector<std::uint32_t>& counts);
 
 } // namespace raywise

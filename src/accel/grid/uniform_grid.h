@@ -3,6 +3,8 @@
 #pragma once
 
 #include "accel/grid/cell_walk.h"
+#include "accel/grid/grid_lists.h"
+#include "accel/grid/grid_options.h"
 #include "accel/grid/grid_statistics.h"
 #include "accel/traversed_accel.h"
 #include "geometry/triangle_block.h"
@@ -10,14 +12,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
-
-// How many cells along each axis: as many as make cells cubes of which `density` times `primitives` fill the box
-// (Woo's rule as Havran and Sixta 1999 use it). Axes along which the box is thinner than such a cube, or flat, have
-// one cell, and the others share all.
-std::array<std::uint32_t, 3> grid_resolution(const Vec3& size, double primitives, double density);
 
 class UniformGrid final : public TraversedAccel<UniformGrid> {
 public:
@@ -27,37 +23,44 @@ public:
     // more memory again.
     static constexpr double default_density = 4.0;
 
-    explicit UniformGrid(const BuildInput& input) : UniformGrid(input, default_density) {}
-    UniformGrid(const BuildInput& input, double density);
+    explicit UniformGrid(const BuildInput& input) : UniformGrid(input, GridOptions{}) {}
+    UniformGrid(const BuildInput& input, const GridOptions& options);
 
-    std::size_t bytes() const override;
+    std::size_t bytes() const override { return sizeof *this + lists_.bytes(); }
 
-    // All zero without hittable primitives.
-    const std::array<std::uint32_t, 3>& resolution() const { return lattice_.resolution; }
-    // Where each cell's references begin, and the end of all. Cell (i, j, k) is number i + resolution[0] * (j +
-    // resolution[1] * k).
-    const std::vector<std::uint32_t>& offsets() const { return offsets_; }
-    // Primitives, in ascending order within each cell.
-    const std::vector<std::uint32_t>& references() const { return references_; }
+    // Of zero cells without hittable primitives.
+    const CellLattice& lattice() const { return lattice_; }
+    const GridLists& lists() const { return lists_; }
     // Looks at every cell once or twice.
-    GridStatistics statistics() const { return grid_statistics(lattice_.resolution, offsets_); }
+    GridStatistics statistics() const;
 
     template <class Collector>
     void traverse(const ExactRay& ray, Collector& collector) const;
 
 private:
-    bool is_occupied(std::size_t cell) const { return (occupied_[cell / 64] >> (cell % 64) & 1u) != 0; }
+    template <class Offset, class Collector>
+    void walk(const ExactRay& ray, const Offset* offsets, Collector& collector) const;
+    bool is_occupied(std::uint32_t cell) const {
+        return (lists_.occupied[cell / cells_per_brick] >> (cell % cells_per_brick) & 1u) != 0;
+    }
 
     CellLattice lattice_;
-    std::vector<std::uint32_t> offsets_;
-    std::vector<std::uint32_t> references_;
-    // A bit for each cell: most are empty, and their offsets would take 32 times the memory that a ray comes to.
-    std::vector<std::uint64_t> occupied_;
+    GridLists lists_;
+    bool mailboxes_;
 };
 
 template <class Collector>
-void UniformGrid::traverse(const ExactRay& exact_ray, Collector& collector) const {
-    if (offsets_.empty()) return;
+void UniformGrid::traverse(const ExactRay& ray, Collector& collector) const {
+    if (lattice_.number_count == 0) return;
+    if (lists_.is_wide()) {
+        walk(ray, lists_.wide_offsets.data(), collector);
+    } else {
+        walk(ray, lists_.narrow_offsets.data(), collector);
+    }
+}
+
+template <class Offset, class Collector>
+void UniformGrid::walk(const ExactRay& exact_ray, const Offset* offsets, Collector& collector) const {
     const CellRay ray(exact_ray, primitives().bounds(), primitives().largest_extent());
     if (!ray.is_known()) return test_all_primitives(exact_ray, collector);
 
@@ -71,16 +74,17 @@ void UniformGrid::traverse(const ExactRay& exact_ray, Collector& collector) cons
     std::array<std::uint32_t, 8> tested;
     tested.fill(PrimitiveHit::no_primitive);
 
+    const std::uint32_t* const references = lists_.references.data();
     std::uint32_t untested[triangle_block_size];
     double limit = collector.limit();
     do {
         if (!is_occupied(walk.cell())) continue;
-        const std::uint32_t end = offsets_[walk.cell() + 1];
-        for (std::uint32_t i = offsets_[walk.cell()]; i < end;) {
+        const Offset end = offsets[walk.cell() + 1];
+        for (Offset i = offsets[walk.cell()]; i < end;) {
             std::uint32_t n = 0;
             for (; i < end && n < triangle_block_size; ++i) {
-                const std::uint32_t primitive = references_[i];
-                if (tested[primitive % tested.size()] == primitive) continue;
+                const std::uint32_t primitive = references[i];
+                if (mailboxes_ && tested[primitive % tested.size()] == primitive) continue;
                 tested[primitive % tested.size()] = primitive;
                 untested[n++] = primitive;
             }

@@ -37,5 +37,7 @@ void measure_hit_counts(SceneUnderTest& scene);
 std::string hit_counts_table(const Session& session);
 void measure_overhead(SceneUnderTest& scene);
 std::string overhead_table(const Session& session);
+void measure_switches(SceneUnderTest& scene);
+std::string switches_table(const Session& session);
 
 } // namespace raywise::bench
