@@ -25,6 +25,10 @@ public:
     const KdTreelets& tree() const { return tree_; }
 
 private:
+    // Where there is no tree.
+    template <class Collector>
+    void test_all(const Ray& ray, Collector& collector) const;
+
     const Primitives& primitives_;
     KdTreelets tree_;
 };

@@ -34,6 +34,9 @@ struct KdTreeOptions {
     std::uint32_t most_references_per_primitive = 8;
     // Median and middle: nodes of at most so many primitives become leaves.
     std::uint32_t leaf_size = 8;
+
+    // More nodes or references than so many, and there is no tree: rays test all primitives; slower, never different. Their links have 30 bits.
+    std::uint64_t most_numbers = std::uint64_t{1} << 30;
 };
 
 } // namespace raywise

@@ -264,8 +264,8 @@ HWY_INLINE void walk_kd_tree(Traced& traced, const KdAxes& axes, KdInterval part
     const KdTreelets& tree = traced.tree;
     const TreeletTest treelet_test(axes);
 
-    // Each treelet leaves at most seven behind.
-    KdWaiting stack[(treelet_cells - 1) * (most_kd_levels / treelet_levels + 1) + 1];
+    // Each treelet leaves at most seven behind, and may end after its first plane.
+    KdWaiting stack[(treelet_cells - 1) * most_kd_levels + 1];
     KdWaiting* top = stack;
     KdLink current = KdLink::treelet(0);
     for (;;) {

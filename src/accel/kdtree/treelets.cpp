@@ -171,6 +171,16 @@ void write_leaves(const KdTreeData& tree, const std::vector<PlacedLeaf>& leaves,
 
 } // namespace
 
+bool has_float64_blocks(const Primitives& primitives) {
+    const auto& meshes = primitives.meshes();
+    return !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
+}
+
+std::size_t block_bytes_per_triangle(const Primitives& primitives) {
+    return has_float64_blocks(primitives) ? TriangleBlock<double>::bytes_per_triangle
+                                          : TriangleBlock<float>::bytes_per_triangle;
+}
+
 KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double progress_begin) {
     KdTreelets result;
     result.frame = tree.frame;
@@ -180,12 +190,9 @@ KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double
     const Box relative = tree.frame.relative(input.primitives.bounds());
     result.bounds = round_outwards({relative.lower * tree.frame.scale(), relative.upper * tree.frame.scale()});
     result.hit_error = round_up(0x1p-27 * input.primitives.largest_extent() * tree.frame.scale());
-    const auto& meshes = input.primitives.meshes();
-    result.is_float64 = !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
+    result.is_float64 = has_float64_blocks(input.primitives);
 
-    TreeletMaker maker(
-        tree, result.bounds,
-        result.is_float64 ? TriangleBlock<double>::bytes_per_triangle : TriangleBlock<float>::bytes_per_triangle);
+    TreeletMaker maker(tree, result.bounds, block_bytes_per_triangle(input.primitives));
     maker.make();
     if (maker.leaf_bytes > KdLink::most_leaf_bytes) {
         result.too_large = true;

@@ -68,6 +68,10 @@ struct KdLeafHead {
 };
 static_assert(sizeof(KdLeafHead) == KdLink::leaf_alignment);
 
+// Of leaves.
+bool has_float64_blocks(const Primitives& primitives);
+std::size_t block_bytes_per_triangle(const Primitives& primitives);
+
 struct KdTreelets {
     SceneFrame frame;
     BoxF bounds;                   // of what is in it, in the frame, rounded outwards
@@ -75,7 +79,7 @@ struct KdTreelets {
     PageArray<KdTreelet> treelets; // the root first; none when nothing can be hit
     PageArray<std::byte> leaves;   // and triangle_block_padding
     bool is_float64 = false;
-    bool too_large = false; // for links: no tree, rays test all primitives; slower, never different
+    bool too_large = false; // for links; there is no tree then
 
     std::size_t bytes() const { return treelets.bytes() + leaves.bytes(); }
 };

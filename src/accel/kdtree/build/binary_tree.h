@@ -49,9 +49,6 @@ private:
 };
 static_assert(sizeof(KdNode) == 8);
 
-// Nodes and references have 30 bits for numbers.
-inline constexpr std::uint64_t most_kd_numbers = std::uint64_t{1} << 30;
-
 // No deeper than this, whatever the scene: the walk's stack has so many places.
 inline constexpr int most_kd_levels = 64;
 
@@ -60,8 +57,7 @@ struct KdTreeData {
     SceneFrame frame;
     std::vector<KdNode> nodes; // the root is the first; empty without hittable primitives
     std::vector<std::uint32_t> references;
-    // More nodes or references than their links can tell apart: no tree, rays test all primitives; slower, never different.
-    bool too_large = false;
+    bool too_large = false; // see KdTreeOptions::most_numbers
 };
 
 } // namespace raywise

@@ -3,6 +3,7 @@
 #include "accel/dense_region.h"
 #include "accel/kdtree/build/item_builder.h"
 #include "accel/kdtree/build/items.h"
+#include "accel/kdtree/treelets.h"
 
 #include <algorithm>
 #include <atomic>
@@ -43,7 +44,17 @@ private:
     std::atomic<std::uint64_t> done_{0};
 };
 
-KdTask root_task(const std::vector<BuildItem>& items, const KdTreeOptions& options) {
+// References that the leaves of a tree may have: so many times the primitives, and what there is memory for, but at least one for each.
+std::uint64_t most_references(const BuildInput& input, const KdTreeOptions& options) {
+    const std::uint64_t primitives = input.primitives.hittable_count();
+    const std::uint64_t most = primitives * options.most_references_per_primitive + 64;
+    if (input.memory_limit == 0) return most;
+    constexpr std::uint64_t bytes_around = 24; // of treelets and heads of leaves, for each reference
+    const std::uint64_t affordable = input.memory_limit / (block_bytes_per_triangle(input.primitives) + bytes_around);
+    return std::clamp(affordable, primitives, most);
+}
+
+KdTask root_task(const std::vector<BuildItem>& items, std::uint64_t allowance) {
     Bounds bounds = Bounds::none();
     for (const BuildItem& item : items) bounds.extend(Bounds::of(item));
     KdTask root{};
@@ -52,7 +63,7 @@ KdTask root_task(const std::vector<BuildItem>& items, const KdTreeOptions& optio
         root.cell.upper[axis] = static_cast<double>(bounds.upper[axis]);
     }
     root.count = static_cast<std::uint32_t>(items.size());
-    root.allowance = std::uint64_t{root.count} * options.most_references_per_primitive + 64;
+    root.allowance = allowance;
     return root;
 }
 
@@ -85,7 +96,7 @@ KdTreeData build_kd_tree(const BuildInput& input, const KdTreeOptions& options, 
     const std::uint64_t hittable = input.primitives.hittable_count();
     if (hittable == 0) return {};
     const SceneFrame frame = scene_frame(input.primitives);
-    if (hittable >= most_kd_numbers) return too_large(frame);
+    if (hittable >= options.most_numbers) return too_large(frame);
 
     const auto n = static_cast<double>(hittable);
     WorkReport work(input.progress, n * (1.0 + 1.5 * std::log2(n + 1.0)), progress_end);
@@ -95,7 +106,7 @@ KdTreeData build_kd_tree(const BuildInput& input, const KdTreeOptions& options, 
     const KdCosts costs(input.costs, options);
     const KdClipper clipper(input.primitives, frame, options.clips);
     const KdContext context{options, costs, clipper, most_levels(hittable), report};
-    const KdTask root = root_task(items, options);
+    const KdTask root = root_task(items, most_references(input, options));
     std::vector<KdPart> parts;
     const auto part_size = static_cast<std::uint32_t>(std::max(least_apart, hittable / parts_wanted));
     KdOutput top = KdItemBuilder(context, std::move(items)).build_top(root, part_size, parts);
@@ -111,7 +122,7 @@ KdTreeData build_kd_tree(const BuildInput& input, const KdTreeOptions& options, 
         nodes += output.nodes.size();
         references += output.references.size();
     }
-    if (std::max(nodes, references) >= most_kd_numbers) return too_large(frame);
+    if (std::max(nodes, references) >= options.most_numbers) return too_large(frame);
     KdTreeData tree;
     tree.frame = frame;
     tree.nodes.reserve(nodes);
