@@ -1,8 +1,8 @@
+// The kd-tree's answers, however it is built. What trees look like: kd_tree_build_test.cpp and kd_tree_treelets_test.cpp.
 #include "accel/kdtree/kd_tree.h"
 
 #include "accel/grid_kd_testing.h"
-
-#include <algorithm>
+#include "geometry/every_target.h"
 
 namespace raywise {
 namespace {
@@ -17,7 +17,7 @@ TEST_P(KdTreeOn, AnswersAsTheLinearScan) {
     expect_scan_answers(world, tree, 201);
 }
 
-// Trees as deep as they get: steps cost next to nothing.
+// Trees as deep as they get, as steps cost next to nothing, and shallow ones.
 TEST_P(KdTreeOn, AnswersAsTheLinearScanWithAnotherBalanceOfCosts) {
     World world(GetParam().make());
     world.costs = {1000.0, 0.1};
@@ -28,87 +28,122 @@ TEST_P(KdTreeOn, AnswersAsTheLinearScanWithAnotherBalanceOfCosts) {
     expect_scan_answers(world, shallow, 203);
 }
 
-struct Shape {
-    int depth = 0;
-    std::size_t leaves = 0;
-    std::size_t references = 0;
-};
-
-Shape shape_of(const KdTreeData& tree, std::uint32_t node = 0) {
-    const KdNode& n = tree.nodes[node];
-    if (n.is_leaf()) return {0, 1, n.count()};
-    const Shape a = shape_of(tree, n.child());
-    const Shape b = shape_of(tree, n.child() + 1);
-    return {1 + std::max(a.depth, b.depth), a.leaves + b.leaves, a.references + b.references};
-}
-
-TEST_P(KdTreeOn, IsBounded) {
-    World world(GetParam().make());
-    world.costs = {1000.0, 0.001};
-    const KdTree tree(world.input());
-    const std::uint64_t hittable = world.primitives().hittable_count();
-    if (hittable == 0) {
-        EXPECT_TRUE(tree.data().nodes.empty());
-        return;
-    }
-    const Shape shape = shape_of(tree.data());
-    EXPECT_LE(shape.depth, 8.0 + 1.3 * std::log2(static_cast<double>(hittable)));
-    EXPECT_LE(shape.references, 8 * hittable + 64);
-    EXPECT_EQ(2 * shape.leaves - 1, tree.data().nodes.size());
-}
-
 INSTANTIATE_TEST_SUITE_P(Scenes, KdTreeOn, ::testing::ValuesIn(hard_scenes()),
                          [](const auto& scene) { return scene.param.name; });
 
-TEST(KdTree, AnswersAsTheLinearScanForNextToAxisParallelRays) { expect_scan_answers_next_to_axes<KdTree>(); }
+// Larger scenes say no more about each way to build.
+constexpr std::size_t most_for_all = 500;
 
-TEST(KdTree, IsTheSameForAnyNumberOfThreads) {
-    const Soup soup = random_soup(30000, 0.02, 41);
-    World one(soup, 1);
-    World two(soup, 2);
-    const KdTree a(one.input());
-    const KdTree b(two.input());
-    ASSERT_EQ(a.data().nodes.size(), b.data().nodes.size());
-    EXPECT_EQ(std::memcmp(a.data().nodes.data(), b.data().nodes.data(), a.data().nodes.size() * sizeof(KdNode)), 0);
-    EXPECT_EQ(a.data().references, b.data().references);
+struct NamedOptions {
+    const char* name;
+    KdTreeOptions options;
+};
+
+// Each with steps so cheap that there are many planes.
+template <class T>
+NamedOptions with(const char* name, T KdTreeOptions::*option, T value) {
+    KdTreeOptions options;
+    options.test_cost = 80.0;
+    options.step_cost = 1.0;
+    options.*option = value;
+    return {name, options};
 }
+
+class KdTreeBuilt : public ::testing::TestWithParam<NamedOptions> {};
+
+TEST_P(KdTreeBuilt, AnswersAsTheLinearScan) {
+    for (const NamedSoup& scene : hard_scenes()) {
+        SCOPED_TRACE(scene.name);
+        World world(scene.make());
+        if (world.soup().size() > most_for_all) continue;
+        const KdTree tree(world.input(), GetParam().options);
+        expect_scan_answers(world, tree, 204);
+        if (HasFailure()) return;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Switches, KdTreeBuilt,
+                         ::testing::Values(with("median", &KdTreeOptions::split, KdSplit::median),
+                                           with("middle", &KdTreeOptions::split, KdSplit::middle),
+                                           with("one_by_one", &KdTreeOptions::tested_at_once, 1u),
+                                           with("no_bonus", &KdTreeOptions::empty_bonus, 0.0),
+                                           with("large_bonus", &KdTreeOptions::empty_bonus, 0.8),
+                                           with("bad_refines", &KdTreeOptions::most_bad_splits, 3),
+                                           with("not_clipped", &KdTreeOptions::clips, false),
+                                           with("bins_to_the_leaves", &KdTreeOptions::most_exact, 0u),
+                                           with("all_exact", &KdTreeOptions::most_exact, 100000u),
+                                           with("few_references", &KdTreeOptions::most_references_per_primitive, 1u),
+                                           with("no_tree", &KdTreeOptions::most_numbers, std::uint64_t{1})),
+                         [](const auto& options) { return std::string(options.param.name); });
+
+TEST(KdTree, AnswersAsTheLinearScanForNextToAxisParallelRays) { expect_scan_answers_next_to_axes<KdTree>(); }
 
 // Enough primitives for parts that are built apart and joined.
 TEST(KdTree, AnswersAsTheLinearScanWhenBuiltInParts) {
     World world(random_soup(9000, 0.02, 42));
     const KdTree tree(world.input());
-    expect_scan_answers(world, tree, 204);
+    expect_scan_answers(world, tree, 205);
 }
 
-TEST(KdTree, PutsEveryPrimitiveOfCubesInFewLeaves) {
-    World world(cubes(8));
-    const KdTree tree(world.input());
-    // Planes through whole coordinates cut no face.
-    EXPECT_LE(shape_of(tree.data()).references, 2 * world.primitives().count());
+TEST(KdTree, AnswersTheSameWithEveryInstructionSet) {
+    for (const NamedSoup& scene : hard_scenes()) {
+        World world(scene.make());
+        if (world.soup().size() > most_for_all) continue;
+        world.costs = {80.0, 1.0};
+        const KdTree tree(world.input());
+        on_every_target([&] {
+            if (!HasFailure()) expect_scan_answers(world, tree, 206);
+        });
+    }
 }
 
-TEST(KdTree, ClipsDiagonalTriangles) {
-    // One large triangle across a scene of small ones: far from it, its box must not count.
-    Soup soup = random_soup(2000, 0.01, 43);
-    soup.push_back({Vec3(0, 0, 0), Vec3(1, 0, 1), Vec3(0, 1, 1)});
-    World world(soup);
-    world.costs = {100.0, 1.0};
-    const KdTree tree(world.input());
-    const auto last = static_cast<std::uint32_t>(soup.size() - 1);
-    std::size_t leaves_with_it = 0;
-    std::size_t leaves = 0;
-    for (const KdNode& node : tree.data().nodes) {
-        if (!node.is_leaf()) continue;
-        ++leaves;
-        if (node.count() == 1) {
-            leaves_with_it += node.first() == last ? 1 : 0;
-        } else {
-            const auto begin = tree.data().references.begin() + node.first();
-            leaves_with_it += static_cast<std::size_t>(std::count(begin, begin + node.count(), last));
+// Planes at zero and through zero, rays in them: nothing of a distance is left to be moved outwards.
+TEST(KdTree, FindsWhatLiesInThePlanesThatARayRunsIn) {
+    Soup soup;
+    for (int i = -8; i < 8; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Corners c{Vec3(0.0), Vec3(0.0), Vec3(0.0)};
+            c[0][(axis + 1) % 3] = i;
+            c[1][(axis + 1) % 3] = i + 1;
+            c[2][(axis + 2) % 3] = i;
+            soup.push_back(c);
+            for (Vec3& p : c) p[axis] += 1.0;
+            soup.push_back(c);
         }
     }
-    EXPECT_GT(leaves_with_it, 10u);
-    EXPECT_LT(leaves_with_it, leaves / 5);
+    World world(soup);
+    world.costs = {80.0, 0.1};
+    const KdTree tree(world.input());
+    std::size_t hits = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double tiny : {0.0, -0.0, 5e-324, -1e-300, 1e-200, -1e-130, 1e-40}) {
+            for (int i = -9; i <= 9; ++i) {
+                for (const double start : {-20.0, 20.0, 0.25, 0.0}) {
+                    Ray ray{Vec3(0.0), -unbounded, Vec3(tiny), unbounded};
+                    ray.origin[(axis + 1) % 3] = 0.5 * i;
+                    ray.origin[axis] = start;
+                    ray.direction[axis] = start > 0.0 ? -1.0 : 1.0;
+                    hits += compare_with_windows(world, tree, ray);
+                }
+            }
+        }
+    }
+    EXPECT_GT(hits, 1000u);
+}
+
+TEST(KdTree, AsksFloatRaysAsThoseOfDouble) {
+    World world(rounded_to_float(random_soup(1500, 0.05, 7)));
+    const KdTree tree(world.input());
+    Dice dice(3);
+    int hits = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const RayF ray{Vec3f(dice.in(world.bounds())), i % 2 == 0 ? 0.0f : -1.0f, Vec3f(dice.unit()), 2.0f};
+        const PrimitiveHit hit = tree.closest_f32(ray, {});
+        EXPECT_TRUE(bits_equal(hit, tree.closest(widened(ray), {})));
+        EXPECT_EQ(tree.any_f32(ray, {}), hit.is_hit());
+        hits += hit.is_hit() ? 1 : 0;
+    }
+    EXPECT_GT(hits, 500);
 }
 
 TEST(KdTree, StopsWhenAsked) {
@@ -131,6 +166,22 @@ TEST(KdTree, ReportsProgressFromZeroToOne) {
         EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
         EXPECT_LE(fractions[i], 1.0);
     }
+}
+
+TEST(KdTree, TakesLessThanItWantsWhereMemoryIsShort) {
+    Soup soup;
+    for (int i = 0; i < 20; ++i) soup = joined(soup, moved(sticks(), 1.0, 0.01 * Vec3(i, i % 3, i % 7)));
+    World world(soup);
+    const KdTree free(world.input());
+    BuildInput input = world.input();
+    input.memory_limit = free.bytes() * 2 / 3;
+    const KdTree bounded(input);
+    EXPECT_LE(bounded.bytes(), input.memory_limit);
+    expect_scan_answers(world, bounded, 207);
+    input.memory_limit = 1; // no tree is so small
+    const KdTree smallest(input);
+    EXPECT_LE(smallest.bytes(), bounded.bytes());
+    expect_scan_answers(world, smallest, 208);
 }
 
 } // namespace

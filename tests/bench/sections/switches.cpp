@@ -15,7 +15,7 @@ constexpr std::uint64_t most_rays = 20000;
 
 std::vector<SwitchRow> all_rows() {
     std::vector<SwitchRow> all;
-    for (const auto& rows : {grid_switches()}) all.insert(all.end(), rows.begin(), rows.end());
+    for (const auto& rows : {grid_switches(), kd_switches()}) all.insert(all.end(), rows.begin(), rows.end());
     return all;
 }
 

@@ -17,5 +17,6 @@ struct SwitchRow {
 
 // A file for each structure: <structure>_switches.cpp.
 std::vector<SwitchRow> grid_switches();
+std::vector<SwitchRow> kd_switches();
 
 } // namespace raywise::bench

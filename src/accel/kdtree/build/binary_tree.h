@@ -1,8 +1,8 @@
-// Builds the kd-tree: surface area heuristic over sorted events in O(N log N) (Wald and Havran 2006, "On Building
-// Fast kd-Trees for Ray Tracing, and on Doing That in O(N log N)", section 4.3), with clipped triangles.
+// A kd-tree as it is built: nodes with two children, and references to primitives in the leaves. What rays are traced through is made of it
+// (accel/kdtree/treelets.h).
 #pragma once
 
-#include "accel/accel.h"
+#include "ray/scene_frame.h"
 
 #include <cstdint>
 #include <cstring>
@@ -19,7 +19,7 @@ public:
         node.link_ = child << 2 | static_cast<std::uint32_t>(axis);
         return node;
     }
-    // first: where its references begin, or the one primitive itself.
+    // first: where its references begin.
     static KdNode leaf(std::uint32_t first, std::uint32_t count) {
         KdNode node;
         node.data_ = first;
@@ -49,22 +49,15 @@ private:
 };
 static_assert(sizeof(KdNode) == 8);
 
+// No deeper than this, whatever the scene: the walk's stack has so many places.
+inline constexpr int most_kd_levels = 64;
+
+// Planes are numbers of float32 in the frame.
 struct KdTreeData {
+    SceneFrame frame;
     std::vector<KdNode> nodes; // the root is the first; empty without hittable primitives
     std::vector<std::uint32_t> references;
-    // More nodes than their 30-bit links can tell apart: no tree, rays test all primitives; slower, never different.
-    bool too_large = false;
-    // Planes lie at plane_base + split, rounded to double: the same number in the builder and in every ray's walk.
-    // The base is zero unless the scene is far from the origin compared with its size, where a float alone would be
-    // too coarse.
-    Vec3 plane_base{0.0};
-
-    static double plane(double base, float split) { return base + static_cast<double>(split); }
+    bool too_large = false; // see KdTreeOptions::most_numbers
 };
-
-// No deeper than this, whatever the scene: the walk's stack has so many places.
-constexpr int most_kd_levels = 64;
-
-KdTreeData build_kd_tree(const BuildInput& input);
 
 } // namespace raywise
