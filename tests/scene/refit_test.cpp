@@ -16,9 +16,9 @@ using namespace testing;
 
 std::shared_ptr<const Profile> generic() { return std::make_shared<const Profile>(generic_profile()); }
 
-std::shared_ptr<Scene> refit(const Scene& scene, const Soup& soup) {
+std::shared_ptr<Scene> refit(const Scene& scene, const Soup& soup, RefitPolicy policy = RefitPolicy::where_it_pays) {
     Progress progress;
-    return scene.refitted({{soup.arrays(), true, false, "meshes[0]."}}, Parallel(2), progress);
+    return scene.refitted({{soup.arrays(), true, false, "meshes[0]."}}, policy, Parallel(2), progress);
 }
 
 std::shared_ptr<Scene> forced(const Soup& soup, Structure structure, std::uint64_t memory_limit = 0) {
@@ -59,7 +59,7 @@ TEST(Refit, NeedsACommittedSceneAndTheSameNumbers) {
     Progress progress;
     const auto status_of = [&](const Scene& scene, const std::vector<MovedMesh>& meshes) {
         try {
-            scene.refitted(meshes, Parallel(1), progress);
+            scene.refitted(meshes, RefitPolicy::where_it_pays, Parallel(1), progress);
         } catch (const Error& error) {
             return error.status();
         }

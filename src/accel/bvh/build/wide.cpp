@@ -51,7 +51,7 @@ private:
     };
 
     const BvhTree& tree_;
-    std::vector<Extent> of_pair_;
+    PageVector<Extent> of_pair_;
 };
 
 using Children = std::vector<Subtree>;
@@ -92,7 +92,7 @@ private:
         Subtree root;
         std::uint32_t parent; // the top node it hangs below, and as which child
         std::uint32_t child;
-        std::vector<WideNode> nodes;
+        PageVector<WideNode> nodes;
     };
 
     void make_top(std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
@@ -114,7 +114,7 @@ private:
     }
 
     // Siblings lie side by side.
-    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
+    void make_node(PageVector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         nodes[index] = empty_node();
         auto next = static_cast<std::uint32_t>(nodes.size());
@@ -223,7 +223,7 @@ private:
     const double progress_begin_;
     const Extents extents_;
     WideBvh bvh_;
-    std::vector<WideNode> top_;
+    PageVector<WideNode> top_;
     std::vector<Job> jobs_;
     std::atomic<std::uint64_t> done_{0};
 };
