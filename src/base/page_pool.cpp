@@ -87,9 +87,7 @@ public:
     }
 
     void add_keeper(int n) { keepers_ += n; }
-    void begin_build() { ++builds_; }
     void end_build() {
-        --builds_;
         build_ = (build_ + 1) % builds_remembered;
         peaks_[build_] = in_use_;
     }
@@ -113,7 +111,6 @@ private:
     std::array<std::uint64_t, builds_remembered> peaks_{}; // of what was in use, one for each build
     std::size_t build_ = 0;
     int keepers_ = 0;
-    int builds_ = 0;
     std::uint64_t most_ = 0;
     PagePoolFigures figures_;
 };
@@ -131,8 +128,7 @@ std::uint64_t Pool::most_kept() const {
     const std::uint64_t peak = *std::max_element(peaks_.begin(), peaks_.end());
     // The steps of a build need arrays of different lengths: with once the peak those of one step would go for those of the next.
     const std::uint64_t room = 2 * peak - in_use_;
-    if (keepers_ > 0) return room;
-    return std::max(builds_ > 0 ? peak - in_use_ : 0, std::min(room, most_));
+    return keepers_ > 0 ? room : std::min(room, most_);
 }
 
 // Calls change() with the lock, and gives back what may not be kept afterwards.
@@ -214,10 +210,7 @@ KeepPages::~KeepPages() {
     change_pool([] { pool.add_keeper(-1); });
 }
 
-BuildMemory::BuildMemory() noexcept {
-    change_pool([] { pool.begin_build(); });
-}
-BuildMemory::~BuildMemory() {
+void note_build() noexcept {
     change_pool([] { pool.end_build(); });
 }
 

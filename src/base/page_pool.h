@@ -1,10 +1,9 @@
 // Memory of large arrays, handed from one that is released to the next one of about that size. A page that comes fresh from the system
 // is cleared when it is first touched, which takes as long as much of what builders do with it (docs/decisions/0026-frames.md).
 //
-// Released memory is kept during a build, from one of its steps for the next: together with what is in use never more than was in use at
-// once, so that it takes no memory that the build does not need anyway. From build to build it is kept while a KeepPages lives, and
-// as far as keep_pages() allows: with what is in use up to twice of what was in use at once during the last builds, so that
-// what a smaller scene does not need any more goes back. Memory from here holds whatever was in it.
+// Released memory is kept while a KeepPages lives, and otherwise as far as keep_pages() allows: with what is in use up to twice of what
+// was in use at once during the last builds, so that what a smaller scene does not need any more goes back. Memory from here holds
+// whatever was in it.
 #pragma once
 
 #include <cstddef>
@@ -34,16 +33,10 @@ public:
     KeepPages& operator=(const KeepPages&) = delete;
 };
 
-// The same during a build: what one step of it releases serves the next.
-class BuildMemory {
-public:
-    BuildMemory() noexcept;
-    ~BuildMemory();
-    BuildMemory(const BuildMemory&) = delete;
-    BuildMemory& operator=(const BuildMemory&) = delete;
-};
+// A build is done: by these the time is counted that memory is kept for.
+void note_build() noexcept;
 
-// How many bytes are kept where nothing of the above lives; 0 at first. What is kept beyond that is given back at once, in any case.
+// How many bytes are kept where no KeepPages lives; 0 at first. What is kept beyond that is given back at once, in any case.
 void keep_pages(std::uint64_t most) noexcept;
 
 // Of pooled arrays, in bytes of whole blocks.

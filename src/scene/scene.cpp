@@ -56,7 +56,6 @@ void Scene::set_effort(Effort effort, Rule rule, double time_limit_seconds) {
 
 void Scene::commit(const Parallel& parallel, Progress& progress) {
     require_uncommitted();
-    const BuildMemory memory;
     build(std::nullopt, parallel, progress);
 }
 
@@ -64,7 +63,6 @@ std::shared_ptr<Scene> Scene::seen(std::shared_ptr<const Scene> scene, const Vie
                                    const Parallel& parallel, Progress& progress) {
     scene->require_committed();
     if (scene->behind_) scene = scene->behind_;
-    const BuildMemory memory;
     auto view = std::make_shared<Scene>(scene->profile_);
     view->frames_ = scene->frames_;
     view->meshes_ = scene->meshes_;
@@ -117,7 +115,6 @@ std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, Ref
     if (policy != RefitPolicy::never) require_same_numbers(meshes);
     if (behind_) return seen(behind_->refitted(meshes, policy, parallel, progress), view_, parallel, progress);
     frames_->begin_frame();
-    const BuildMemory memory;
     auto scene = std::make_shared<Scene>(profile_);
     scene->frames_ = frames_;
     scene->workload_ = workload_;
@@ -153,6 +150,7 @@ void Scene::build(const std::optional<PlanBefore>& before, const Parallel& paral
 
 void Scene::plan_and_commit(const PlanRequest& request, const Parallel& parallel, Progress& progress) {
     PlannedAccel planned = plan_and_build(request, parallel, progress);
+    note_build();
 
     // Nothing below can fail half-way: the scene changes with the last line or not at all.
     auto tracer = std::make_unique<const Tracer>(request.primitives, std::move(planned.accel));

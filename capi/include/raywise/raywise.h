@@ -579,9 +579,9 @@ RW_API int32_t rw_scene_commit(rw_scene *scene, const rw_commit_options *options
  * mesh_count: as many as the scene has, unless options->refit is RW_REFIT_NEVER. options: struct_size set; NULL: the
  * defaults.
  * refitted: receives a scene the caller must release.
- * Memory: from the second refit on, scenes made from each other keep what the released ones had and what building took
- * for the next frame, together never more than was in use at once during the last 32 builds. It goes back to the system
- * with the last of these scenes. In steady state a frame takes no large array from the system:
+ * Memory: from the second refit on, what scenes made from each other release, and what building takes, is kept for the
+ * next frame: with what is in use at most twice what was in use at once during the last 32 builds. It goes back to the
+ * system with the last of these scenes. In steady state a frame takes no large array from the system:
  *
  *     rw_commit_options options = {sizeof options};
  *     options.refit = RW_REFIT_NEVER; // or leave it: then a "bvh" is refitted
@@ -601,7 +601,7 @@ RW_API int32_t rw_scene_refit(const rw_scene *scene, const rw_triangles *meshes,
 /* Does: says how much memory of released scenes, and of builds that are done, the process keeps for scenes to come. A
  * program that makes a scene, asks it and releases it, over and over, need not wait for the system to clear the same
  * pages again; where scenes are refitted frame after frame that is so by itself. At first 0: nothing is kept. Arrays of
- * 256 KiB or more are, and together with what is in use no more than was in use at once during the last 32 builds.
+ * 256 KiB or more are, and with what is in use at most twice what was in use at once during the last 32 builds.
  * bytes: at most so many. What is kept beyond that goes back to the system at once, what refitted scenes keep included
  * (they keep it again from the next frame on); so 0 gives back all there is.
  * Returns: RW_OK. Threads: any. */
