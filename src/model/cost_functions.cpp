@@ -36,6 +36,8 @@ constexpr CostFunctions table[] = {
     {Structure::bvh, n_log_n, log_n, false},
     {Structure::projected_bvh, n_log_n, log_n, true},
     {Structure::bvh_quality, n_log_n, log_n, false},
+    // Radix sort: as many passes whatever the number.
+    {Structure::bvh_morton, linear, log_n, false},
 };
 
 constexpr bool is_complete() {

@@ -73,6 +73,7 @@ printed "Saved $FOLDER/profile.json"
 expect 0 show "$FOLDER/profile.json"
 printed "projected_bvh"
 printed "bvh_quality"
+printed "bvh_morton"
 narrow
 expect 0 show "$FOLDER/profile.json" --json
 cmp -s "$FOLDER/out" "$FOLDER/profile.json" || fail "show --json differs from the file"

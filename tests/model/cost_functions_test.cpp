@@ -34,6 +34,8 @@ TEST(CostFunctions, HaveTheExpectedUnits) {
         EXPECT_STREQ(build_unit_name(s), "N log2 N");
         EXPECT_STREQ(ray_unit_name(s), "log2 N");
     }
+    EXPECT_STREQ(build_unit_name(Structure::bvh_morton), "N");
+    EXPECT_STREQ(ray_unit_name(Structure::bvh_morton), "log2 N");
 }
 
 TEST(CostFunctions, AreSoundForNoneAndOneTriangle) {

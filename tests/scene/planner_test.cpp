@@ -30,6 +30,7 @@ std::shared_ptr<const Profile> three_steps() {
         set_costs(constants, B, 100'000, 10);
         set_costs(constants, Structure::projected_bvh, 1e9, 1e9);
         set_costs(constants, Structure::bvh_quality, 1e9, 1e9);
+        set_costs(constants, Structure::bvh_morton, 1e9, 1e9);
     });
 }
 
