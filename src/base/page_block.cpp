@@ -42,12 +42,12 @@ constexpr int no_value = 0xCB;
 
 } // namespace
 
-PageBlock* allocate_block(std::size_t capacity) {
+PageBlock* allocate_block(std::size_t capacity, bool has_room) {
     const std::size_t bytes = sizeof(PageBlock) + capacity;
     const auto alignment = static_cast<std::align_val_t>(is_large(bytes) ? large_page : alignof(PageBlock));
     void* const memory = ::operator new(bytes, alignment);
     if (is_large(bytes)) ask_for_large_pages(memory, bytes);
-    return ::new (memory) PageBlock{capacity, alignment, nullptr};
+    return ::new (memory) PageBlock{capacity, alignment, has_room, nullptr};
 }
 
 void release_blocks(PageBlock* first) noexcept {

@@ -10,6 +10,7 @@ namespace raywise {
 struct alignas(256) PageBlock {
     std::size_t capacity; // behind this
     std::align_val_t alignment;
+    bool has_room;   // beyond what it was asked for, for an array that grows from frame to frame
     PageBlock* next; // of a list
 
     std::byte* memory() { return reinterpret_cast<std::byte*>(this + 1); }
@@ -17,7 +18,7 @@ struct alignas(256) PageBlock {
 };
 
 // In pages of 2 MiB where it is large and the system has them. Throws std::bad_alloc.
-PageBlock* allocate_block(std::size_t capacity);
+PageBlock* allocate_block(std::size_t capacity, bool has_room);
 // All blocks of a list.
 void release_blocks(PageBlock* first) noexcept;
 

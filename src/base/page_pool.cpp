@@ -20,13 +20,16 @@ constexpr std::size_t small_page = std::size_t{4} << 10;
 // Held for the time of a walk along the list and no longer: memory comes from the system, and goes back to it, without the lock.
 class Pool {
 public:
-    // The smallest of those kept that will do; null: none.
+    // Of those kept that will do the one most like a new block, null: none. The smallest might be what another array, a little shorter,
+    // is going to need, and that one would find none.
     PageBlock* take_kept(std::size_t bytes) {
+        const std::size_t wanted = capacity_for(bytes);
+        const auto off = [&](std::size_t capacity) { return std::max(capacity, wanted) - std::min(capacity, wanted); };
         PageBlock** best = nullptr;
         for (PageBlock** each = &kept_; *each != nullptr; each = &(*each)->next) {
             const std::size_t capacity = (*each)->capacity;
             const bool fits = capacity >= bytes && capacity - bytes <= bytes / 4;
-            if (fits && (best == nullptr || capacity < (*best)->capacity)) best = each;
+            if (fits && (best == nullptr || off(capacity) < off((*best)->capacity))) best = each;
         }
         if (best == nullptr) return nullptr;
         PageBlock* const block = *best;
@@ -36,9 +39,10 @@ public:
         return block;
     }
 
-    // For a new block: how large, with room for an array that grows from frame to frame where frames are what memory is kept for.
+    // Arrays of a structure differ in length from frame to frame. So blocks that are to be kept have some room.
+    bool gives_room() const { return keepers_ > 0 || most_ > 0; }
     std::size_t capacity_for(std::size_t bytes) const {
-        const std::size_t wanted = keepers_ > 0 || most_ > 0 ? bytes + bytes / 8 : bytes;
+        const std::size_t wanted = gives_room() ? bytes + bytes / 8 : bytes;
         return (wanted + small_page - 1) / small_page * small_page;
     }
 
@@ -66,14 +70,14 @@ public:
         kept_ = block;
     }
 
-    // Takes out what may not be kept, of which the caller disposes: those that were kept longest before others.
+    // Takes out what may not be kept, of which the caller disposes: those without room, and those that were kept longest before others.
     PageBlock* surplus() { return surplus_above(most_kept()); }
     PageBlock* surplus_above(std::uint64_t most) {
         PageBlock* result = nullptr;
         std::uint64_t sum = 0;
         for (PageBlock** each = &kept_; *each != nullptr;) {
             PageBlock* const block = *each;
-            if (sum + block->capacity <= most) {
+            if (block->has_room && sum + block->capacity <= most) {
                 sum += block->capacity;
                 each = &block->next;
             } else {
@@ -146,13 +150,15 @@ void change_pool(const Change& change) noexcept {
 PageBlock* take_fresh(std::size_t bytes) {
     std::size_t capacity = 0;
     std::uint64_t peak_before = 0;
+    bool has_room = false;
     change_pool([&] {
         capacity = pool.capacity_for(bytes);
+        has_room = pool.gives_room();
         peak_before = pool.peak_of_build();
         pool.note_fresh(capacity);
     });
     try {
-        return allocate_block(capacity);
+        return allocate_block(capacity, has_room);
     } catch (const std::bad_alloc&) {
         change_pool([&] { pool.note_refused(capacity, peak_before); });
         throw;

@@ -142,7 +142,8 @@ TEST(Refit, DoesNotMeasureAgain) {
         stages += std::strcmp(stage, "measuring") == 0 ? 1 : 0;
         return false;
     });
-    const auto next = scene->refitted({{soup.arrays(), true, false, "meshes[0]."}}, Parallel(1), progress);
+    const auto next = scene->refitted({{soup.arrays(), true, false, "meshes[0]."}}, RefitPolicy::where_it_pays,
+                                      Parallel(1), progress);
     EXPECT_EQ(stages, 0);
     EXPECT_EQ(next->plan().chosen, scene->plan().chosen);
     EXPECT_EQ(next->plan().effort, Effort::measure);
@@ -216,10 +217,11 @@ TEST(Refit, ProgressEndsAtItsEnd) {
         const auto scene = forced(soup, structure);
         double last = -1.0;
         Progress progress(expect_within_ends(last));
-        scene->refitted({{soup.arrays(), true, false, ""}}, Parallel(2), progress);
+        scene->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(2), progress);
         EXPECT_EQ(last, 1.0) << name_of(structure);
         Progress stop([](double, const char*) { return true; });
-        EXPECT_THROW(scene->refitted({{soup.arrays(), true, false, ""}}, Parallel(2), stop), Error);
+        EXPECT_THROW(scene->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(2), stop),
+                     Error);
     }
 }
 
