@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t triangles = 70000;
 constexpr int frames_to_settle = 3;
-constexpr int frames = frames_to_settle + 4;
+constexpr int frames = frames_to_settle + 2;
 // What any array with a number for each triangle takes, or the parts that threads make.
 constexpr long small = 256 << 10;
 static_assert(4 * triangles > small);
