@@ -209,6 +209,14 @@ std::optional<Structure> read_structure(const char* name) {
                 "structure: there is none named \"" + std::string(name, strnlen(name, 64)) + "\"; there are " + known);
 }
 
+rw_commit_options read_commit_options(const rw_commit_options* options, const char* name) {
+    const rw_commit_options o = read_optional_struct(options, name);
+    read_reserved(o.reserved, name);
+    if (o.refit < RW_REFIT_WHERE_IT_PAYS || o.refit > RW_REFIT_NEVER)
+        throw bad_argument(std::string(name) + ".refit: " + std::to_string(o.refit) + " is no RW_REFIT_ constant");
+    return o;
+}
+
 Parallel read_parallel(std::uint32_t threads, rw_parallel_for parallel_for, void* user) {
     if (parallel_for == nullptr) return Parallel(threads);
     return Parallel(threads, [parallel_for, user](std::uint64_t count, const Parallel::Task& task) {

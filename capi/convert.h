@@ -20,6 +20,8 @@ namespace raywise::capi {
 // The size a struct had in the version before, what an older program passes: to be specialised for those that grow.
 template <class T>
 inline constexpr std::size_t previous_size = sizeof(T);
+template <>
+inline constexpr std::size_t previous_size<rw_commit_options> = offsetof(rw_commit_options, refit);
 
 // The struct_size of a struct that begins with one. A larger one, of a newer program, is fine as long as what this library does
 // not know is zero.
@@ -84,6 +86,9 @@ enum class OutputKind {
 };
 OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
                         const std::string& name);
+
+// NULL: the defaults. name: of the argument.
+rw_commit_options read_commit_options(const rw_commit_options* options, const char* name);
 
 // name: of the struct, in messages.
 TriangleArrays read_triangles(const rw_triangles& triangles, const std::string& name = "triangles");

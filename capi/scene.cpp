@@ -79,7 +79,7 @@ std::int32_t rw_scene_set_effort(rw_scene* scene, std::int32_t effort, std::int3
 std::int32_t rw_scene_commit(rw_scene* scene, const rw_commit_options* options) {
     return guard([&] {
         Scene& s = *required(scene, "scene").value;
-        const rw_commit_options o = read_optional_struct(options, "options");
+        const rw_commit_options o = read_commit_options(options, "options");
         Progress progress(read_progress(o.progress, o.progress_user));
         s.commit(read_parallel(o.threads, o.parallel_for, o.parallel_user), progress);
     });
@@ -90,14 +90,15 @@ std::int32_t rw_scene_refit(const rw_scene* scene, const rw_triangles* meshes, s
     return guard([&] {
         const Scene& s = *required(scene, "scene").value;
         rw_scene*& out = required(refitted, "refitted");
-        const rw_commit_options o = read_optional_struct(options, "options");
+        const rw_commit_options o = read_commit_options(options, "options");
         std::vector<MovedMesh> moved;
         for_each_mesh(meshes, mesh_count, [&](const rw_triangles& mesh, const std::string& name) {
             moved.push_back({read_triangles(mesh, name), (mesh.flags & RW_TRIANGLES_SHARED) == 0,
                              (mesh.flags & RW_TRIANGLES_SKIP_INVALID) != 0, name + "."});
         });
         Progress progress(read_progress(o.progress, o.progress_user));
-        out = new rw_scene(s.refitted(moved, read_parallel(o.threads, o.parallel_for, o.parallel_user), progress));
+        out = new rw_scene(s.refitted(moved, static_cast<RefitPolicy>(o.refit),
+                                      read_parallel(o.threads, o.parallel_for, o.parallel_user), progress));
     });
 }
 

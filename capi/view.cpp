@@ -47,7 +47,7 @@ std::int32_t rw_scene_view(const rw_scene* scene, const rw_view_options* options
         rw_scene*& out = required(view, "view");
         const rw_view_options o = read_struct(options, "options");
         read_reserved(o.reserved, "options");
-        const rw_commit_options c = read_optional_struct(commit, "commit");
+        const rw_commit_options c = read_commit_options(commit, "commit");
         ViewRequest request;
         request.frame = read_frame(o);
         request.workload =

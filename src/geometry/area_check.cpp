@@ -121,7 +121,7 @@ private:
 
 template <class T>
 void check_in_tiles(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
-                    std::vector<std::uint32_t>& doubtful) {
+                    PageVector<std::uint32_t>& doubtful) {
     HWY_ALIGN T lines[tile / corner_block * corner_block_numbers];
     AreaCheck<T> check;
     for (; first < end; first += std::min(tile, end - first)) {
@@ -139,7 +139,7 @@ void check_in_tiles(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t
 }
 
 void check_areas_kernel(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
-                        std::vector<std::uint32_t>& doubtful) {
+                        PageVector<std::uint32_t>& doubtful) {
     if (mesh.arrays().vertices.scalar == Scalar::float32) {
         check_in_tiles<float>(mesh, first, end, reach, doubtful);
     } else {
@@ -157,7 +157,7 @@ namespace raywise {
 HWY_EXPORT(check_areas_kernel);
 
 void check_areas(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
-                 std::vector<std::uint32_t>& doubtful) {
+                 PageVector<std::uint32_t>& doubtful) {
     HWY_DYNAMIC_DISPATCH(check_areas_kernel)(mesh, first, end, reach, doubtful);
 }
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "base/box.h"
+#include "base/page_array.h"
 #include "geometry/triangle_mesh.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
 
@@ -24,6 +24,6 @@ struct Reach {
 // Of a mesh's triangles first ... end - 1: appends those that may be invalid or without area to `doubtful`, and extends `reach` by the
 // others.
 void check_areas(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end, Reach& reach,
-                 std::vector<std::uint32_t>& doubtful);
+                 PageVector<std::uint32_t>& doubtful);
 
 } // namespace raywise

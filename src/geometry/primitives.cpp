@@ -31,11 +31,11 @@ Vec3 scaled_normal(const Corners& c) {
 constexpr std::uint64_t triangles_per_task = 32768;
 
 // Returns the triangles that cannot be hit, and extends the reach by the others.
-std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Reach& reach) {
-    std::vector<std::uint32_t> unhittable;
+PageVector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Reach& reach) {
+    PageVector<std::uint32_t> unhittable;
     std::mutex mutex;
     const auto settle = [&](std::uint64_t begin, std::uint64_t end) {
-        std::vector<std::uint32_t> doubtful;
+        PageVector<std::uint32_t> doubtful;
         Reach here;
         check_areas(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), here, doubtful);
         const auto has_area = [&](std::uint32_t i) {
@@ -75,7 +75,7 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, 
     }
     count_ = static_cast<std::uint32_t>(total);
 
-    std::vector<std::uint32_t> unhittable;
+    PageVector<std::uint32_t> unhittable;
     Reach reach;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const TriangleMesh& mesh = *meshes_[m];

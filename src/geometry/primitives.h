@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/box.h"
+#include "base/page_array.h"
 #include "base/parallel.h"
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_test.h"
@@ -93,7 +94,7 @@ public:
 private:
     std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
     std::vector<std::uint32_t> first_; // the number of each mesh's first triangle
-    std::vector<bool> unhittable_;     // empty when all can be hit
+    PageVector<bool> unhittable_;      // empty when all can be hit
     Box bounds_;
     double largest_extent_ = 0.0;
     std::uint32_t count_ = 0;

@@ -45,11 +45,14 @@ bool is_usable(const Vec3& p) {
 }
 
 // `count` elements of three components, one after the other.
-std::vector<std::byte> packed(const StridedArray& array, std::uint64_t count) {
+PageArray<std::byte> packed(const StridedArray& array, std::uint64_t count) {
     const std::size_t size = size_of(array.scalar);
-    if (array.is_packed() && count > 0) return {array.data, array.data + count * 3 * size};
-    std::vector<std::byte> copy(count * 3 * size);
+    PageArray<std::byte> copy(count * 3 * size);
     std::byte* out = copy.data();
+    if (array.is_packed()) {
+        std::copy_n(array.data, copy.size(), out);
+        return copy;
+    }
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::byte* element = array.data + static_cast<std::ptrdiff_t>(i) * array.stride;
         for (int component = 0; component < 3; ++component, out += size) {
@@ -76,6 +79,12 @@ TriangleMesh::TriangleMesh(const TriangleMesh& before, const TriangleArrays& arr
                            const std::string& name)
     : arrays_(arrays) {
     if (arrays.indices.data == nullptr && before.arrays_.indices.data != nullptr) {
+        if (arrays.triangle_count != before.arrays_.triangle_count) {
+            throw Error(Status::ERROR_INVALID_ARGUMENT,
+                        name + "triangle_count: it is " + std::to_string(arrays.triangle_count) +
+                            ", the mesh whose indices are kept has " + std::to_string(before.arrays_.triangle_count) +
+                            " triangles");
+        }
         if (arrays.vertex_count != before.arrays_.vertex_count) {
             throw Error(Status::ERROR_INVALID_ARGUMENT, name + "vertex_count: it is " +
                                                             std::to_string(arrays.vertex_count) +
@@ -152,7 +161,7 @@ bool TriangleMesh::indices_are_in_range() const {
 
 void TriangleMesh::find_invalid() {
     const bool indexed = arrays_.indices.data != nullptr;
-    std::vector<bool> invalid(arrays_.triangle_count, false);
+    PageVector<bool> invalid(arrays_.triangle_count, false);
     for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint64_t index =
@@ -166,10 +175,10 @@ void TriangleMesh::find_invalid() {
 
 void TriangleMesh::make_copy() {
     if (arrays_.indices.data != nullptr && index_copy_ == nullptr) {
-        auto copy = std::make_shared<const std::vector<std::byte>>(packed_indices());
+        auto copy = std::make_shared<const PageArray<std::byte>>(packed_indices());
         arrays_.indices = {copy->data(), 3 * sizeof(std::uint32_t), sizeof(std::uint32_t), Scalar::uint32};
         index_copy_ = std::move(copy);
-        // A null pointer means "no indices"; an empty vector's may be null.
+        // A null pointer means "no indices"; an empty array's is null.
         static const std::byte none{};
         if (arrays_.indices.data == nullptr) arrays_.indices.data = &none;
     }
@@ -178,12 +187,12 @@ void TriangleMesh::make_copy() {
     arrays_.vertices = {vertex_copy_.data(), 3 * size, size, arrays_.vertices.scalar};
 }
 
-std::vector<std::byte> TriangleMesh::packed_indices() const {
+PageArray<std::byte> TriangleMesh::packed_indices() const {
     const StridedArray& indices = arrays_.indices;
     if (indices.scalar == Scalar::uint32) return packed(indices, arrays_.triangle_count);
     // 32 bits hold every valid index, and none is as large as the one that stands for all others.
     constexpr std::uint64_t invalid = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
+    PageArray<std::byte> copy(arrays_.triangle_count * 3 * sizeof(std::uint32_t));
     std::byte* out = copy.data();
     for (std::uint64_t i = 0; i < arrays_.triangle_count; ++i) {
         for (int corner = 0; corner < 3; ++corner, out += sizeof(std::uint32_t)) {

@@ -1,6 +1,7 @@
 // One triangle mesh: strided arrays of the caller's, or packed copies of them, read as double precision corners.
 #pragma once
 
+#include "base/page_array.h"
 #include "base/vec.h"
 
 #include <array>
@@ -9,7 +10,6 @@
 #include <cstring>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace raywise {
 
@@ -90,7 +90,8 @@ public:
     // ERROR_TOO_MANY, naming the element, unless skip_invalid. copy: keep packed copies instead of the caller's arrays. name: where
     // the arrays are in the caller's eyes, in front of every message.
     TriangleMesh(const TriangleArrays& arrays, bool copy, bool skip_invalid, const std::string& name = {});
-    // The same for a mesh whose vertices have moved: without indices it has those of `before`, and then has to have as many vertices.
+    // The same for a mesh whose vertices have moved: without indices it has those of `before`, and then has to have as many vertices
+    // and triangles.
     TriangleMesh(const TriangleMesh& before, const TriangleArrays& arrays, bool copy, bool skip_invalid,
                  const std::string& name = {});
     TriangleMesh(const TriangleMesh&) = delete; // its arrays may point into itself
@@ -117,7 +118,7 @@ public:
 
     // Memory of the copies; that of indices is counted by each mesh that has them.
     std::size_t bytes() const {
-        return vertex_copy_.size() + (index_copy_ ? index_copy_->size() : 0) + invalid_.size() / 8;
+        return vertex_copy_.bytes() + (index_copy_ ? index_copy_->bytes() : 0) + invalid_.size() / 8;
     }
 
 private:
@@ -134,12 +135,12 @@ private:
     bool indices_are_in_range() const;
     void find_invalid();
     void make_copy();
-    std::vector<std::byte> packed_indices() const;
+    PageArray<std::byte> packed_indices() const;
 
     TriangleArrays arrays_;
-    std::vector<std::byte> vertex_copy_;
-    std::shared_ptr<const std::vector<std::byte>> index_copy_; // one for all meshes that differ in their vertices alone
-    std::vector<bool> invalid_;                                // empty when all are valid
+    PageArray<std::byte> vertex_copy_;
+    std::shared_ptr<const PageArray<std::byte>> index_copy_; // one for all meshes that differ in their vertices alone
+    PageVector<bool> invalid_;                               // empty when all are valid
     std::uint64_t invalid_count_ = 0;
 };
 

@@ -142,11 +142,20 @@ private:
                         std::to_string(request_.memory_limit));
     }
 
+    Refitted refit(const PlanBefore& before, const Cost& predicted) const {
+        if (before.policy == RefitPolicy::never) return {nullptr, "it was to be built anew", 1.0};
+        const double most = before.policy == RefitPolicy::where_possible
+                                ? std::numeric_limits<double>::infinity()
+                                : refit_limit(predicted, request_.workload.rays);
+        return before.accel.refitted(input(), most);
+    }
+
     // The figures of the decision stay those of before. Returns false, with nothing taken, when it has to be made again: because far
     // fewer or far more primitives can be hit, or what was chosen does not fit the memory limit any more.
     bool take_moved(const PlanBefore& before) {
         const std::uint64_t now = request_.primitives->hittable_count();
-        if (!request_.forced && !choice_holds(before.hittable_count, now)) {
+        const bool is_kept = request_.forced || before.policy == RefitPolicy::where_possible;
+        if (!is_kept && !choice_holds(before.hittable_count, now)) {
             plan_.refit = RefitReport{0, 1.0, "the number of triangles that can be hit has changed"};
             return false;
         }
@@ -157,7 +166,7 @@ private:
         PlannedCandidate& candidate = plan_.candidate(structure);
         progress_.report(0.0, "refitting");
         const Clock::time_point start = Clock::now();
-        Refitted refitted = before.accel.refitted(input(), refit_limit(candidate.predicted, request_.workload.rays));
+        Refitted refitted = refit(before, candidate.predicted);
         const std::uint64_t refits = before.plan.refit ? before.plan.refit->refits : 0;
         plan_.refit = RefitReport{refitted.accel ? refits + 1 : 0, refitted.cost, refitted.obstacle};
         std::shared_ptr<const Accel> accel = refitted.accel ? note_built(candidate, std::move(refitted.accel), start)

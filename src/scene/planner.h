@@ -27,6 +27,13 @@ enum class Rule {
     hapala = 1
 };
 
+// What becomes of the structure when geometry has moved. Values as RW_REFIT_* in raywise.h.
+enum class RefitPolicy {
+    where_it_pays = 0,
+    where_possible = 1,
+    never = 2
+};
+
 struct Plan;
 
 // The same geometry before it moved, with what was planned and built for it.
@@ -34,6 +41,7 @@ struct PlanBefore {
     const Plan& plan;
     const Accel& accel;
     std::uint64_t hittable_count;
+    RefitPolicy policy;
 };
 
 struct PlanRequest {
@@ -50,7 +58,7 @@ struct PlanRequest {
     // A structure that is there already and costs nothing to build: the scene's, when a view is planned.
     std::optional<Structure> ready;
     std::shared_ptr<const Accel> ready_accel;
-    // Its structure is refitted, or the same built anew, as long as about as many primitives can be hit.
+    // Its structure is refitted, or the same built anew, as the policy says and as long as about as many primitives can be hit.
     std::optional<PlanBefore> before;
 };
 

@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "base/page_pool.h"
+
 #include <string>
 #include <utility>
 
@@ -62,6 +64,7 @@ std::shared_ptr<Scene> Scene::seen(std::shared_ptr<const Scene> scene, const Vie
     scene->require_committed();
     if (scene->behind_) scene = scene->behind_;
     auto view = std::make_shared<Scene>(scene->profile_);
+    view->frames_ = scene->frames_;
     view->meshes_ = scene->meshes_;
     view->triangle_count_ = scene->triangle_count_;
     view->view_ = request;
@@ -85,17 +88,35 @@ std::shared_ptr<Scene> Scene::seen(std::shared_ptr<const Scene> scene, const Vie
     return view;
 }
 
-std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
-                                       Progress& progress) const {
-    require_committed();
+void Scene::require_same_numbers(const std::vector<MovedMesh>& meshes) const {
     if (meshes.size() != meshes_.size()) {
         throw Error(Status::ERROR_INVALID_ARGUMENT, "mesh_count: it is " + std::to_string(meshes.size()) +
                                                         ", the scene has " + std::to_string(meshes_.size()) +
                                                         " meshes");
     }
-    if (behind_) return seen(behind_->refitted(meshes, parallel, progress), view_, parallel, progress);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const std::uint64_t count = meshes[i].arrays.triangle_count;
+        if (count == meshes_[i]->triangle_count()) continue;
+        throw Error(Status::ERROR_INVALID_ARGUMENT, meshes[i].name + "triangle_count: it is " + std::to_string(count) +
+                                                        ", the scene's mesh has " +
+                                                        std::to_string(meshes_[i]->triangle_count()) + " triangles");
+    }
+}
+
+std::shared_ptr<const TriangleMesh> Scene::moved_mesh(std::size_t index, const MovedMesh& mesh) const {
+    if (index >= meshes_.size())
+        return std::make_shared<const TriangleMesh>(mesh.arrays, mesh.copy, mesh.skip_invalid, mesh.name);
+    return std::make_shared<const TriangleMesh>(*meshes_[index], mesh.arrays, mesh.copy, mesh.skip_invalid, mesh.name);
+}
+
+std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, RefitPolicy policy,
+                                       const Parallel& parallel, Progress& progress) const {
+    require_committed();
+    if (policy != RefitPolicy::never) require_same_numbers(meshes);
+    if (behind_) return seen(behind_->refitted(meshes, policy, parallel, progress), view_, parallel, progress);
+    frames_->begin_frame();
     auto scene = std::make_shared<Scene>(profile_);
-    scene->triangle_count_ = triangle_count_;
+    scene->frames_ = frames_;
     scene->workload_ = workload_;
     scene->sample_ = sample_;
     scene->memory_limit_ = memory_limit_;
@@ -104,17 +125,11 @@ std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, con
     scene->rule_ = rule_;
     scene->time_limit_seconds_ = time_limit_seconds_;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const MovedMesh& mesh = meshes[i];
-        const TriangleMesh& before = *meshes_[i];
-        if (mesh.arrays.triangle_count != before.triangle_count()) {
-            throw Error(Status::ERROR_INVALID_ARGUMENT,
-                        mesh.name + "triangle_count: it is " + std::to_string(mesh.arrays.triangle_count) +
-                            ", the scene's mesh has " + std::to_string(before.triangle_count()) + " triangles");
-        }
-        scene->meshes_.push_back(
-            std::make_shared<const TriangleMesh>(before, mesh.arrays, mesh.copy, mesh.skip_invalid, mesh.name));
+        scene->meshes_.push_back(moved_mesh(i, meshes[i]));
+        scene->triangle_count_ += scene->meshes_.back()->triangle_count();
     }
-    scene->build(PlanBefore{plan_, tracer_->accel(), tracer_->primitives().hittable_count()}, parallel, progress);
+    scene->build(PlanBefore{plan_, tracer_->accel(), tracer_->primitives().hittable_count(), policy}, parallel,
+                 progress);
     return scene;
 }
 
@@ -135,6 +150,7 @@ void Scene::build(const std::optional<PlanBefore>& before, const Parallel& paral
 
 void Scene::plan_and_commit(const PlanRequest& request, const Parallel& parallel, Progress& progress) {
     PlannedAccel planned = plan_and_build(request, parallel, progress);
+    note_build();
 
     // Nothing below can fail half-way: the scene changes with the last line or not at all.
     auto tracer = std::make_unique<const Tracer>(request.primitives, std::move(planned.accel));

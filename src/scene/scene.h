@@ -2,6 +2,7 @@
 // structure chosen for rays from a point or along a direction.
 #pragma once
 
+#include "scene/frame_memory.h"
 #include "scene/planner.h"
 #include "scene/tracer.h"
 
@@ -48,8 +49,10 @@ public:
                                        const Parallel& parallel, Progress& progress);
 
     // A committed scene of the same meshes at new places; what was said of this one before the commit holds for it too. Its structure is
-    // this one's refitted, or else built. Of a view: the same view of its scene, refitted. Throws Error with ERROR_NOT_COMMITTED, and with ERROR_INVALID_ARGUMENT when numbers differ.
-    std::shared_ptr<Scene> refitted(const std::vector<MovedMesh>& meshes, const Parallel& parallel,
+    // this one's refitted, or else built; meshes for one that is never refitted may have other numbers of triangles, and be more or
+    // fewer. Of a view: the same view of its scene, refitted. Throws Error with ERROR_NOT_COMMITTED, and with ERROR_INVALID_ARGUMENT
+    // when numbers differ.
+    std::shared_ptr<Scene> refitted(const std::vector<MovedMesh>& meshes, RefitPolicy policy, const Parallel& parallel,
                                     Progress& progress) const;
 
     // After it. Each throws Error(ERROR_NOT_COMMITTED) before.
@@ -61,9 +64,12 @@ public:
 private:
     void require_uncommitted() const;
     void require_committed() const;
+    void require_same_numbers(const std::vector<MovedMesh>& meshes) const;
+    std::shared_ptr<const TriangleMesh> moved_mesh(std::size_t index, const MovedMesh& mesh) const;
     void build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress);
     void plan_and_commit(const PlanRequest& request, const Parallel& parallel, Progress& progress);
 
+    std::shared_ptr<FrameMemory> frames_ = std::make_shared<FrameMemory>(); // outlives all that is in it
     std::shared_ptr<const Profile> profile_;
     std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
     std::uint64_t triangle_count_ = 0;

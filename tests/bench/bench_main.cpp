@@ -99,8 +99,11 @@ bool run(const CommandLine& line) {
             }
         throw std::runtime_error("nobody is called " + line.memory_of);
     }
-    Session session{line.options,           effort_of(line.options), *all.ours, all.subjects, all.yardstick, all.avx2,
-                    this_machine().threads, own_command(line),       {},        {},           false,         {}};
+    const bool has_embree3 = !all.embrees.empty() && all.embrees.front()->major() == 3;
+    const EmbreeLibrary* const embree3 = has_embree3 ? all.embrees.front().get() : nullptr;
+    Session session{
+        line.options,           effort_of(line.options), *all.ours, all.subjects, all.yardstick, all.avx2, embree3,
+        this_machine().threads, own_command(line),       {},        {},           false,         {}};
     std::vector<const SceneRow*> rows;
     for (const SceneRow& row : scene_rows()) {
         if (line.options.scenes.empty() ? row.quick || !line.options.quick : wanted(line.options.scenes, row.name))

@@ -23,6 +23,7 @@ namespace raywise::bench {
     X(rw_scene_set_expected_rays) \
     X(rw_scene_set_structure)     \
     X(rw_scene_commit)            \
+    X(rw_scene_refit)             \
     X(rw_scene_release)           \
     X(rw_scene_get_statistics)    \
     X(rw_scene_intersect)         \

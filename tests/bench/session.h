@@ -15,6 +15,8 @@
 
 namespace raywise::bench {
 
+class EmbreeLibrary;
+
 // Names of raywise's rows in the table of subjects, which the summary asks for.
 extern const char* const ours_forced;  // bvh
 extern const char* const ours_quality; // bvh_quality, where the library has it
@@ -53,6 +55,7 @@ struct Session {
     const Subjects& subjects;
     const Subjects& yardstick; // as in TakingPart, as is avx2
     const Subjects& avx2;
+    const EmbreeLibrary* embree3; // none: it is not there
     unsigned all_threads;
     std::vector<std::string> own_command; // runs this program again with the same libraries
     Cells cells;

@@ -2,6 +2,8 @@
  * header promises, and a message that names argument and element. */
 #include "errors_testing.h"
 
+#include <stddef.h>
+
 static void meshes_in_memory(void) {
     uint32_t geometry = 77;
     float *vertices = (float *)malloc((size_t)s.triangles * 9 * sizeof(float));
@@ -128,7 +130,8 @@ static void before_and_after_the_commit(void) {
 }
 
 static void refits(void) {
-    rw_scene *scene = NULL, *none = NULL;
+    rw_scene *scene = NULL, *none = NULL, *other = NULL;
+    rw_commit_options options;
     rw_triangles meshes[3];
     float *vertices = (float *)malloc((size_t)s.triangles * 9 * sizeof(float));
     uint32_t *indices = (uint32_t *)malloc((size_t)s.triangles * 3 * sizeof(uint32_t));
@@ -150,7 +153,29 @@ static void refits(void) {
     CHECK_ERROR(REFIT(3), RW_ERROR_INVALID_ARGUMENT, "mesh_count: it is 3|2 meshes");
     meshes[1].triangle_count = 18;
     CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].triangle_count: it is 18|17 triangles");
+    memset(&options, 0, sizeof options);
+    options.struct_size = sizeof options;
+    options.refit = RW_REFIT_NEVER; /* other numbers are fine then, */
+    NEED_OK(rw_scene_refit(scene, meshes, 2, &options, &other));
+    CHECK_OK(rw_scene_release(other));
+    NEED_OK(rw_scene_refit(scene, meshes, 1, &options, &other));
+    CHECK_OK(rw_scene_release(other));
+    meshes[1].indices.data = NULL; /* but not of indices that are kept */
+    CHECK_ERROR(rw_scene_refit(scene, meshes, 2, &options, &none), RW_ERROR_INVALID_ARGUMENT,
+                "meshes[1].triangle_count: it is 18|indices are kept|17 triangles");
+    options.refit = 3;
+    CHECK_ERROR(rw_scene_refit(scene, meshes, 2, &options, &none), RW_ERROR_INVALID_ARGUMENT, "options.refit: 3");
+    options.refit = -1;
+    CHECK_ERROR(rw_scene_refit(scene, meshes, 2, &options, &none), RW_ERROR_INVALID_ARGUMENT, "options.refit: -1");
+    CHECK_ERROR(rw_scene_commit(scene, &options), RW_ERROR_INVALID_ARGUMENT, "options.refit: -1");
+    options.refit = RW_REFIT_WHERE_POSSIBLE;
+    options.reserved = 1;
+    CHECK_ERROR(rw_scene_refit(scene, meshes, 2, &options, &none), RW_ERROR_RESERVED, "options.reserved");
+    options.struct_size = (uint32_t)offsetof(rw_commit_options, refit); /* of the version before, which had none */
+    meshes[1].indices.data = s.indices;
     meshes[1].triangle_count = 17;
+    NEED_OK(rw_scene_refit(scene, meshes, 2, &options, &other));
+    CHECK_OK(rw_scene_release(other));
     meshes[1].indices.data = NULL;
     meshes[1].vertex_count = 51;
     CHECK_ERROR(REFIT(2), RW_ERROR_INVALID_ARGUMENT, "meshes[1].vertex_count: it is 51|300 vertices");

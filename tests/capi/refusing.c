@@ -5,6 +5,7 @@ static int refusing; /* 0: nothing is refused; otherwise 1 + refusal */
 static long until;   /* allocations until the first that is refused */
 static long refused;
 static long live, bytes_live;
+static long largest;
 
 void refuse(refusal which, long number) {
     __atomic_store_n(&until, number, __ATOMIC_SEQ_CST);
@@ -30,7 +31,13 @@ int is_refused(void) {
     return 1;
 }
 
+long largest_allocation(void) { return __atomic_exchange_n(&largest, 0, __ATOMIC_SEQ_CST); }
+
 void count_live(long difference, long bytes) {
+    long before = __atomic_load_n(&largest, __ATOMIC_SEQ_CST);
+    while (bytes > before &&
+           !__atomic_compare_exchange_n(&largest, &before, bytes, 0, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST)) {
+    }
     __atomic_fetch_add(&live, difference, __ATOMIC_SEQ_CST);
     __atomic_fetch_add(&bytes_live, bytes, __ATOMIC_SEQ_CST);
 }

@@ -23,6 +23,8 @@ long stop_refusing(void);
 /* Allocations made and not given back yet, and their bytes. */
 long live_allocations(void);
 long live_bytes(void);
+/* The bytes of the largest allocation since this was asked last. */
+long largest_allocation(void);
 
 /* For the replaced functions: whether to refuse this one, and the count of what lives. */
 int is_refused(void);

@@ -3,6 +3,7 @@
 
 #include "fuzz/failure.h"
 #include "fuzz/input.h"
+#include "raywise/raywise.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,6 +16,8 @@ namespace raywise::fuzz {
 // What an older program passes: to be specialised for structs that grow.
 template <class T>
 inline constexpr std::uint32_t oldest_size = sizeof(T);
+template <>
+inline constexpr std::uint32_t oldest_size<rw_commit_options> = offsetof(rw_commit_options, refit);
 
 template <class T>
 class CallerStruct {

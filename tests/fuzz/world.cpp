@@ -78,6 +78,7 @@ struct Build {
     HostLoop loop;
     ProgressLog progress;
     bool is_given;
+    std::int32_t refit = RW_REFIT_WHERE_IT_PAYS;
     CallerStruct<rw_commit_options> options;
 
 private:
@@ -88,6 +89,7 @@ private:
         o.progress_user = progress.user();
         o.parallel_for = loop.function();
         o.parallel_user = loop.user();
+        o.refit = refit = input.pick({RW_REFIT_WHERE_IT_PAYS, RW_REFIT_WHERE_POSSIBLE, RW_REFIT_NEVER});
         return o;
     }
 };
@@ -296,7 +298,8 @@ void World::refit() {
         outcome.add(moved.meshes.back()->outcome());
         described.push_back(moved.meshes.back()->moved_triangles());
     }
-    if (input_.one_in(32)) {
+    // Built anew, other numbers are no mistake.
+    if (build.refit != RW_REFIT_NEVER && input_.one_in(32)) {
         if (!described.empty() && input_.one_in(2)) {
             described.pop_back();
         } else {

@@ -49,7 +49,7 @@ TEST(AreaCheck, IsCertainOnlyOfWhatHasArea) {
                     const Zoo zoo(count, scale, static_cast<unsigned>(count));
                     const LaidOutMesh laid_out(zoo.vertices, zoo.indices, layout);
                     const auto mesh = laid_out.shared();
-                    std::vector<std::uint32_t> doubtful;
+                    PageVector<std::uint32_t> doubtful;
                     Reach reach;
                     check_areas(*mesh, 0, static_cast<std::uint32_t>(count), reach, doubtful);
                     const Box& bounds = reach.bounds;

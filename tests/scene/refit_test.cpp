@@ -16,9 +16,9 @@ using namespace testing;
 
 std::shared_ptr<const Profile> generic() { return std::make_shared<const Profile>(generic_profile()); }
 
-std::shared_ptr<Scene> refit(const Scene& scene, const Soup& soup) {
+std::shared_ptr<Scene> refit(const Scene& scene, const Soup& soup, RefitPolicy policy = RefitPolicy::where_it_pays) {
     Progress progress;
-    return scene.refitted({{soup.arrays(), true, false, "meshes[0]."}}, Parallel(2), progress);
+    return scene.refitted({{soup.arrays(), true, false, "meshes[0]."}}, policy, Parallel(2), progress);
 }
 
 std::shared_ptr<Scene> forced(const Soup& soup, Structure structure, std::uint64_t memory_limit = 0) {
@@ -59,7 +59,7 @@ TEST(Refit, NeedsACommittedSceneAndTheSameNumbers) {
     Progress progress;
     const auto status_of = [&](const Scene& scene, const std::vector<MovedMesh>& meshes) {
         try {
-            scene.refitted(meshes, Parallel(1), progress);
+            scene.refitted(meshes, RefitPolicy::where_it_pays, Parallel(1), progress);
         } catch (const Error& error) {
             return error.status();
         }
@@ -142,7 +142,8 @@ TEST(Refit, DoesNotMeasureAgain) {
         stages += std::strcmp(stage, "measuring") == 0 ? 1 : 0;
         return false;
     });
-    const auto next = scene->refitted({{soup.arrays(), true, false, "meshes[0]."}}, Parallel(1), progress);
+    const auto next = scene->refitted({{soup.arrays(), true, false, "meshes[0]."}}, RefitPolicy::where_it_pays,
+                                      Parallel(1), progress);
     EXPECT_EQ(stages, 0);
     EXPECT_EQ(next->plan().chosen, scene->plan().chosen);
     EXPECT_EQ(next->plan().effort, Effort::measure);
@@ -216,10 +217,11 @@ TEST(Refit, ProgressEndsAtItsEnd) {
         const auto scene = forced(soup, structure);
         double last = -1.0;
         Progress progress(expect_within_ends(last));
-        scene->refitted({{soup.arrays(), true, false, ""}}, Parallel(2), progress);
+        scene->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(2), progress);
         EXPECT_EQ(last, 1.0) << name_of(structure);
         Progress stop([](double, const char*) { return true; });
-        EXPECT_THROW(scene->refitted({{soup.arrays(), true, false, ""}}, Parallel(2), stop), Error);
+        EXPECT_THROW(scene->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(2), stop),
+                     Error);
     }
 }
 

@@ -113,12 +113,12 @@ TEST(View, RefittedIsTheSameViewOfTheRefittedScene) {
     Progress progress;
     for (const Structure structure : {Structure::projected_bvh, Structure::bvh}) {
         const auto view = Scene::seen(scene, {frames()[0], {1000, RayKind::camera}, structure}, Parallel(1), progress);
-        const auto refitted = view->refitted(meshes, Parallel(1), progress);
+        const auto refitted = view->refitted(meshes, RefitPolicy::where_it_pays, Parallel(1), progress);
         EXPECT_EQ(refitted->plan().chosen, structure);
         for (const Ray& ray : rays_of(frames()[0]))
             ASSERT_TRUE(same_bits(refitted->tracer().closest(ray), moved->tracer().closest(ray)));
         // And again, since it is a view as the first one was.
-        const auto again = refitted->refitted(meshes, Parallel(1), progress);
+        const auto again = refitted->refitted(meshes, RefitPolicy::where_it_pays, Parallel(1), progress);
         EXPECT_EQ(again->plan().chosen, structure);
     }
 }

@@ -45,6 +45,7 @@ from ._explanation import Candidate, Explanation, GridStatistics, SceneStatistic
 from ._facts import library_path, structures, version
 from ._hits import INVALID_ID, AllHits, Hits
 from ._library import LibraryError
+from ._memory import keep_memory, kept_memory
 from ._mesh import Mesh
 from ._once import intersect_once, occluded_once
 from ._profile import Profile, profile
@@ -105,6 +106,8 @@ __all__ = [
     "WrongStructure",
     "__version__",
     "intersect_once",
+    "keep_memory",
+    "kept_memory",
     "library_path",
     "occluded_once",
     "profile",

@@ -76,6 +76,9 @@ RW_EFFORT_PROBE = 1
 RW_EFFORT_MEASURE = 2
 RW_RULE_SMALLEST_TOTAL = 0
 RW_RULE_HAPALA = 1
+RW_REFIT_WHERE_IT_PAYS = 0
+RW_REFIT_WHERE_POSSIBLE = 1
+RW_REFIT_NEVER = 2
 RW_CANDIDATE_CHOSEN = 1
 RW_CANDIDATE_FORCED = 2
 RW_CANDIDATE_OVER_LIMIT = 4
@@ -264,6 +267,8 @@ class rw_commit_options(ctypes.Structure):
         ("progress_user", ctypes.c_void_p),
         ("parallel_for", rw_parallel_for),
         ("parallel_user", ctypes.c_void_p),
+        ("refit", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
     ]
 
 
@@ -391,6 +396,8 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
             ctypes.c_void_p,
         ],
     ),
+    "rw_memory_keep": (ctypes.c_int32, [ctypes.c_uint64]),
+    "rw_memory_kept": (ctypes.c_int32, [ctypes.c_void_p]),
     "rw_scene_bounds": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]),
     "rw_scene_get_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_scene_statistics)]),
     "rw_scene_get_grid_statistics": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_grid_statistics)]),
@@ -699,7 +706,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_commit_options": (
-        40,
+        48,
         8,
         {
             "struct_size": 0,
@@ -708,6 +715,8 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "progress_user": 16,
             "parallel_for": 24,
             "parallel_user": 32,
+            "refit": 40,
+            "reserved": 44,
         },
     ),
     "rw_scene_statistics": (

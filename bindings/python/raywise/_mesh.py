@@ -169,12 +169,17 @@ def triangles_of(
     return Triangles(struct, [points, corners], given if given.dtype.kind == "i" else None)
 
 
-def moved_triangles_of(vertices: npt.ArrayLike, triangle_count: int, *, skip_invalid: bool, shared: bool) -> Triangles:
-    """Describes a mesh that keeps its indices for rw_scene_refit. ValueError and TypeError name the argument."""
+def moved_triangles_of(
+    vertices: npt.ArrayLike, triangle_count: Optional[int], *, skip_invalid: bool, shared: bool
+) -> Triangles:
+    """Describes a mesh that keeps its indices for rw_scene_refit. ValueError and TypeError name the argument.
+
+    triangle_count: None: there are none to keep, and each three vertices are a triangle.
+    """
     points = expressible(require_rows(as_floats(vertices, "vertices"), "vertices", 3))
     struct = sized(c.rw_triangles)
     struct.flags = (c.RW_TRIANGLES_SHARED if shared else 0) | (c.RW_TRIANGLES_SKIP_INVALID if skip_invalid else 0)
     struct.vertex_count = len(points)
     struct.vertices = input_array(points)
-    struct.triangle_count = triangle_count
+    struct.triangle_count = len(points) // 3 if triangle_count is None else triangle_count
     return Triangles(struct, [points], None)

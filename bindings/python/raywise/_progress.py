@@ -6,7 +6,7 @@ from typing import Callable, Optional
 
 from . import _declarations as c
 from ._errors import check
-from ._words import Count, sized, unsigned
+from ._words import REFITS, Count, constant, sized, unsigned
 
 ProgressCallback = Callable[[float, str], object]
 
@@ -14,13 +14,14 @@ ProgressCallback = Callable[[float, str], object]
 class Progress:
     """rw_commit_options with a Python callback. Keep it until the C call is over, then ask `finish`."""
 
-    def __init__(self, threads: Count, callback: Optional[ProgressCallback]) -> None:
+    def __init__(self, threads: Count, callback: Optional[ProgressCallback], refit: str = "where_it_pays") -> None:
         if callback is not None and not callable(callback):
             raise TypeError(f"progress has to be callable, not {type(callback).__name__}")
         self._callback = callback
         self._error: Optional[BaseException] = None
         self.options = sized(c.rw_commit_options)
         self.options.threads = unsigned(threads, "threads", 32)
+        self.options.refit = constant(REFITS, refit, "refit")
         self._trampoline = c.rw_progress(self._call) if callback is not None else c.rw_progress()
         self.options.progress = self._trampoline
 

@@ -30,6 +30,11 @@ class _Added(NamedTuple):
 
     triangle_count: int
     shared_indices: Optional[object]  # what has to be kept when the scene reads them in place
+    indexed: bool
+
+
+def _added(triangles: Triangles, shared_indices: Optional[object]) -> _Added:
+    return _Added(triangles.struct.triangle_count, shared_indices, bool(triangles.struct.indices.data))
 
 
 class SceneBusy(RuntimeError):
@@ -154,7 +159,7 @@ class Scene(Queries):
                 raise described.in_callers_terms(error) from None
             if not copy:
                 reference.kept.extend(described.kept)
-            self._meshes.append(_Added(described.struct.triangle_count, None if copy else described.indices))
+            self._meshes.append(_added(described, None if copy else described.indices))
         return geometry.value
 
     def set_expected_rays(
@@ -250,6 +255,7 @@ class Scene(Queries):
         *meshes: "Union[npt.ArrayLike, Mesh, Tuple[npt.ArrayLike, Optional[npt.ArrayLike]]]",
         skip_invalid: bool = False,
         copy: bool = True,
+        refit: str = "where_it_pays",
         threads: Count = 0,
         progress: Optional[ProgressCallback] = None,
     ) -> "Scene":
@@ -258,12 +264,19 @@ class Scene(Queries):
         The structure is this scene's with new boxes where it has such a form ("bvh") and that pays, which takes a
         fraction of building; else it is built anew. Expectations, effort, memory limit, profile and a forced structure
         are those of this scene. Answers are those of any scene with these meshes. This scene stays as it is.
+        From the second frame on the memory of scenes that are closed is kept for the next ones:
+
+            next_scene = scene.refit(vertices, refit="never")
+            scene.close()
+            scene = next_scene
 
         meshes: one for each mesh of the scene, in the order of adding, each with as many triangles as before: its
         vertices alone, which keep their indices and have to be as many as before; or a tuple (vertices, triangles); or
         a Mesh.
         skip_invalid, copy: as for add_triangles, for all of them. With copy=False, indices that this scene reads in
         place are read in place by the new one as well.
+        refit: "where_it_pays" by the rays expected; "where_possible": however the boxes overlap; "never": built anew,
+        and then there may be other numbers of triangles (with their indices, if they have any) and of meshes.
         threads, progress: as for commit.
 
         Raises NotCommitted, NotFinite, CoordinateRange, IndexOutOfRange, ValueError (numbers that differ), TypeError,
@@ -275,21 +288,21 @@ class Scene(Queries):
         described: "List[Triangles]" = []
         added: "List[_Added]" = []
         for i, mesh in enumerate(meshes):
-            before = self._meshes[i] if i < len(self._meshes) else _Added(0, None)
+            before = self._meshes[i] if i < len(self._meshes) else _Added(0, None, False)
             if isinstance(mesh, tuple) and len(mesh) != 2:
                 raise TypeError(f"meshes[{i}]: a tuple is (vertices, triangles), this one has {len(mesh)} elements")
             vertices, triangles = mesh if isinstance(mesh, tuple) else (mesh, None)
             if isinstance(vertices, Mesh) or triangles is not None:
                 triangles_ = triangles_of(vertices, triangles, skip_invalid=skip_invalid, shared=not copy)
-                indices = triangles_.indices
+                added.append(_added(triangles_, None if copy else triangles_.indices))
             else:
-                triangles_ = moved_triangles_of(
-                    vertices, before.triangle_count, skip_invalid=skip_invalid, shared=not copy
-                )
-                indices = before.shared_indices
+                may_differ = refit == "never" and not before.indexed
+                count = None if may_differ else before.triangle_count
+                triangles_ = moved_triangles_of(vertices, count, skip_invalid=skip_invalid, shared=not copy)
+                kept_indices = None if copy else before.shared_indices
+                added.append(_Added(triangles_.struct.triangle_count, kept_indices, before.indexed))
             described.append(triangles_)
-            added.append(_Added(triangles_.struct.triangle_count, None if copy else indices))
-        build = Progress(threads, progress)
+        build = Progress(threads, progress, refit)
         address = ctypes.c_void_p()
         structs = (c.rw_triangles * len(described))(*(each.struct for each in described))
         status = lib.rw_scene_refit(reference.address, structs, len(described), build.options, ctypes.byref(address))

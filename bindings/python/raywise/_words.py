@@ -25,6 +25,11 @@ RULES: Dict[str, int] = {
     "smallest_total": c.RW_RULE_SMALLEST_TOTAL,
     "hapala": c.RW_RULE_HAPALA,
 }
+REFITS: Dict[str, int] = {
+    "where_it_pays": c.RW_REFIT_WHERE_IT_PAYS,
+    "where_possible": c.RW_REFIT_WHERE_POSSIBLE,
+    "never": c.RW_REFIT_NEVER,
+}
 PROFILE_SOURCES: Dict[int, str] = {
     c.RW_PROFILE_SOURCE_GENERIC: "generic",
     c.RW_PROFILE_SOURCE_PATH: "path",

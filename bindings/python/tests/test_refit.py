@@ -205,3 +205,67 @@ def test_from_several_threads_at_once() -> None:
     assert len(made) == 4
     for refitted in made:
         same_bits(refitted.intersect(*rays(9, 100)), made[0].intersect(*rays(9, 100)))
+
+
+def test_the_structure_is_refitted_or_built_as_asked(structure: str) -> None:
+    scene = raywise.Scene(VERTICES, TRIANGLES, structure=structure)
+    fresh = raywise.Scene(VERTICES * 2, TRIANGLES)
+    for refit in ("where_it_pays", "where_possible", "never"):
+        refitted = scene.refit(VERTICES * 2, refit=refit)
+        same_bits(refitted.intersect(*rays(3, 200)), fresh.intersect(*rays(3, 200)))
+        assert refitted.structure == structure
+        assert (refitted.statistics.refits > 0) == (refit != "never" and structure.startswith("bvh"))
+    with pytest.raises(raywise.InvalidArgument, match="refit is 'sometimes', not one of 'where_it_pays'"):
+        scene.refit(VERTICES, refit="sometimes")
+
+
+def single_triangles(seed: int, count: int) -> Any:
+    """Vertices of triangles that share none."""
+    return np.random.default_rng(seed).uniform(-1, 1, (3 * count, 3))
+
+
+def test_numbers_may_change_where_all_is_built_anew() -> None:
+    first, second = single_triangles(1, 50), single_triangles(2, 70)
+    scene = raywise.Scene(VERTICES, TRIANGLES)
+    with pytest.raises(ValueError):
+        scene.refit((VERTICES, TRIANGLES[:-5]))
+    fewer = scene.refit((VERTICES, TRIANGLES[:-5]), refit="never")
+    assert fewer.statistics.triangle_count == len(TRIANGLES) - 5
+    more = fewer.refit(VERTICES, first, refit="never")
+    assert more.statistics.triangle_count == len(TRIANGLES) - 5 + 50
+    again = more.refit(VERTICES, second, first, refit="never")
+    fresh = raywise.Scene()
+    fresh.add_triangles(VERTICES, TRIANGLES[:-5])
+    fresh.add_triangles(second)
+    fresh.add_triangles(first)
+    fresh.commit()
+    same_bits(again.intersect(*rays(4, 300)), fresh.intersect(*rays(4, 300)))
+    assert again.refit(refit="never").statistics.triangle_count == 0
+    with pytest.raises(ValueError, match="vertex_count"):
+        again.refit(VERTICES[:-1], second, first, refit="never")
+
+
+def test_memory_of_frames_is_kept_until_the_last_is_closed() -> None:
+    assert raywise.kept_memory() == 0
+    big = single_triangles(1, 20000)
+    scene = raywise.Scene(big, structure="bvh")
+    for i in range(4):
+        next_scene = scene.refit(big + 0.01 * i, refit="never")
+        scene.close()
+        scene = next_scene
+    assert raywise.kept_memory() > 0
+    scene.close()
+    assert raywise.kept_memory() == 0
+
+
+def test_memory_of_any_scene_is_kept_on_request() -> None:
+    big = single_triangles(1, 20000)
+    raywise.keep_memory(1e8)
+    try:
+        raywise.Scene(big, structure="bvh").close()
+        assert 0 < raywise.kept_memory() <= 1e8
+    finally:
+        raywise.keep_memory(0)
+    assert raywise.kept_memory() == 0
+    with pytest.raises(ValueError):
+        raywise.keep_memory(-1)

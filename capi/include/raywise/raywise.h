@@ -32,7 +32,8 @@
  *   other (only mesh files are read one at a time).
  * - Memory. What a call took is given back when it returns, whatever the number of calls before. Kept for the next one
  *   is the place in which threads meet: for each value of `threads` in use as many as there were calls at once, 7 kB
- *   each and 2 kB for each thread above two.
+ *   each and 2 kB for each thread above two. Scenes that are refitted frame after frame keep more, and what more a
+ *   program wants kept it says: see rw_scene_refit and rw_memory_keep.
  * - Fork. A child may go on with all that it inherits, except from within a callback. Where the parent had threads of
  *   the library, the child has none and its calls work in the calling thread alone, or in a parallel_for; otherwise it
  *   starts its own.
@@ -539,6 +540,11 @@ RW_API int32_t rw_scene_set_structure(rw_scene *scene, const char *name);
  * Returns: RW_OK, RW_ERROR_ALREADY_COMMITTED. */
 RW_API int32_t rw_scene_set_effort(rw_scene *scene, int32_t effort, int32_t rule, double time_limit_seconds);
 
+/* What rw_scene_refit does with the old structure. */
+#define RW_REFIT_WHERE_IT_PAYS 0  /* new boxes around it, where that is reckoned to pay by the rays expected */
+#define RW_REFIT_WHERE_POSSIBLE 1 /* new boxes around it wherever it has such a form, however they overlap */
+#define RW_REFIT_NEVER 2          /* built anew; numbers of triangles and meshes may change from frame to frame */
+
 typedef struct rw_commit_options {
     uint32_t struct_size;
     uint32_t threads;             /* at most so many; 0: as many as the process may use */
@@ -546,6 +552,8 @@ typedef struct rw_commit_options {
     void *progress_user;          /* handed to progress */
     rw_parallel_for parallel_for; /* NULL: the library's own threads */
     void *parallel_user;          /* handed to parallel_for */
+    int32_t refit;                /* RW_REFIT_, for rw_scene_refit; of no effect elsewhere */
+    int32_t reserved;             /* 0 */
 } rw_commit_options;
 
 /* Does: chooses a structure and builds it. An empty scene is legal: every ray misses.
@@ -556,23 +564,53 @@ RW_API int32_t rw_scene_commit(rw_scene *scene, const rw_commit_options *options
 
 /* Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The
  * structure is the old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of
- * building; else the same structure is built anew. It is chosen anew only when the number of triangles that can be
- * hit has changed more than twofold or it would be over the memory limit. Expectations, effort, memory limit, profile
- * and a forced structure are those of the old scene. Answers are those of any scene with these meshes.
+ * building; else the same structure is built anew; options->refit says otherwise. It is chosen anew only when the
+ * number of triangles that can be hit has changed more than twofold or it would be over the memory limit. Expectations,
+ * effort, memory limit, profile and a forced structure are those of the old scene. Answers are those of any scene with
+ * these meshes.
  * scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards. Of a view, the scene it
  * is of is refitted as well: *refitted is then the same view of that, with what was said for the view.
  * meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as
- * before, and vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh
- * keeps the indices it has in the old scene (none, if it has none), and then needs as many vertices as there; indices
- * that the old scene reads in place (RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's
- * vertices are not read: they may be gone, or moved in place, as long as nobody asks the old scene any more.
- * mesh_count: as many as the scene has. options: struct_size set; NULL: the defaults.
+ * before, unless options->refit is RW_REFIT_NEVER, and vertices, flags and types of its own. Every vertex and index is
+ * checked. indices.data NULL: the mesh keeps the indices it has in the old scene (none, if it has none or is not
+ * there), and then needs as many vertices and triangles as there; indices that the old scene reads in place
+ * (RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's vertices are not read: they may be
+ * gone, or moved in place, as long as nobody asks the old scene any more.
+ * mesh_count: as many as the scene has, unless options->refit is RW_REFIT_NEVER. options: struct_size set; NULL: the
+ * defaults.
  * refitted: receives a scene the caller must release.
+ * Memory: from the second refit on, what scenes made from each other release, and what building takes, is kept for the
+ * next frame: with what is in use at most twice what was in use at once during the last 32 builds. It goes back to the
+ * system with the last of these scenes. In steady state a frame takes no large array from the system:
+ *
+ *     rw_commit_options options = {sizeof options};
+ *     options.refit = RW_REFIT_NEVER; // or leave it: then a "bvh" is refitted
+ *     while (next_frame(&mesh)) {     // the same vertices moved, or another mesh with its indices
+ *         rw_scene *next;
+ *         if (rw_scene_refit(scene, &mesh, 1, &options, &next) != RW_OK) break;
+ *         rw_scene_release(scene);
+ *         scene = next;
+ *         rw_scene_intersect_batch(scene, &rays, &hits, NULL);
+ *     }
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_HOST_PARALLEL,
  * RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE,
  * RW_ERROR_TOO_MANY, RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ). */
 RW_API int32_t rw_scene_refit(const rw_scene *scene, const rw_triangles *meshes, uint32_t mesh_count,
                               const rw_commit_options *options, rw_scene **refitted);
+
+/* Does: says how much memory of released scenes, and of builds that are done, the process keeps for scenes to come. A
+ * program that makes a scene, asks it and releases it, over and over, need not wait for the system to clear the same
+ * pages again; where scenes are refitted frame after frame that is so by itself. At first 0: nothing is kept. Arrays of
+ * 256 KiB or more are, and with what is in use at most twice what was in use at once during the last 32 builds.
+ * bytes: at most so many. What is kept beyond that goes back to the system at once, what refitted scenes keep included
+ * (they keep it again from the next frame on); so 0 gives back all there is.
+ * Returns: RW_OK. Threads: any. */
+RW_API int32_t rw_memory_keep(uint64_t bytes);
+
+/* Does: tells how much memory is kept right now, for frames of refitted scenes or because of rw_memory_keep.
+ * bytes: receives it.
+ * Returns: RW_OK. */
+RW_API int32_t rw_memory_kept(uint64_t *bytes);
 
 /* ------------------------------------------------------------------------------------------------
  * Scenes: facts

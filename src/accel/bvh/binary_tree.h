@@ -1,11 +1,11 @@
 // The binary bounding volume hierarchy as data: what builders make, and what is widened or traversed.
 #pragma once
 
+#include "base/page_array.h"
 #include "ray/scene_frame.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
 
@@ -31,8 +31,8 @@ struct alignas(64) BvhPair {
 struct BvhTree {
     SceneFrame frame; // boxes are relative to its center, and not scaled
     BvhNode root{};
-    std::vector<BvhPair> pairs;
-    std::vector<std::uint32_t> references; // primitives, in the order of the leaves
+    PageVector<BvhPair> pairs;
+    PageVector<std::uint32_t> references; // primitives, in the order of the leaves
 
     bool empty() const { return references.empty(); }
     std::size_t bytes() const {

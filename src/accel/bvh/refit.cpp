@@ -108,7 +108,7 @@ private:
     const bool all_hittable_;
     const BuildInput& input_;
     WideBvh bvh_;
-    std::vector<std::uint8_t> is_fit_; // a byte each: threads write to neighbours
+    PageVector<std::uint8_t> is_fit_; // a byte each: threads write to neighbours
     std::atomic<std::uint64_t> done_{0};
 };
 

@@ -136,7 +136,7 @@ private:
     const BvhTree& boxes_;
     const ProjectionPlane& plane_;
     const bool keep_boxes_;
-    std::vector<Footprint> footprints_; // of all nodes but the root
+    PageVector<Footprint> footprints_; // of all nodes but the root
     Footprint root_;
     PlaneTree tree_;
 };

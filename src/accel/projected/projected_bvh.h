@@ -15,6 +15,7 @@
 #include "accel/bvh/build/build.h"
 #include "accel/projected/projection.h"
 #include "accel/traversed_accel.h"
+#include "base/page_array.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -74,8 +75,8 @@ struct PlaneTree {
     bool empty = true;
     double widest_ray = 0.0; // a wider rectangle would meet so many others that the ray had better take the 3D tree
     PlaneNode root{};
-    std::vector<PlanePair> pairs;
-    std::vector<std::uint32_t>
+    PageVector<PlanePair> pairs;
+    PageVector<std::uint32_t>
         boxes; // for each node of pairs its node in the 3D tree: 2 * pair + child; combined scheme only
 
     std::size_t bytes() const {

@@ -31,6 +31,8 @@ void measure_memory(SceneUnderTest& scene);
 std::string memory_table(const Session& session);
 void measure_totals(SceneUnderTest& scene);
 std::string totals_table(const Session& session);
+void measure_frames(SceneUnderTest& scene);
+std::string frames_table(const Session& session);
 void measure_linear_scan(SceneUnderTest& scene);
 std::string linear_scan_table(const Session& session);
 void measure_hit_counts(SceneUnderTest& scene);

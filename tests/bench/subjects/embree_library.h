@@ -24,6 +24,7 @@ namespace raywise::bench {
     X(rtcReleaseGeometry)                \
     X(rtcSetGeometryBuildQuality)        \
     X(rtcSetSharedGeometryBuffer)        \
+    X(rtcUpdateGeometryBuffer)           \
     X(rtcCommitGeometry)                 \
     X(rtcAttachGeometry)
 

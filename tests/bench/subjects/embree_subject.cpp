@@ -1,6 +1,7 @@
 #include "bench/subjects/embree_subject.h"
 
 #include "bench/subjects/embree_query.h"
+#include "bench/subjects/frames.h"
 
 #include <atomic>
 #include <mutex>
@@ -118,7 +119,56 @@ private:
     mutable std::unique_ptr<Device> all_threads_;
 };
 
+// As Embree wants scenes that change: the same geometry committed again.
+class EmbreeFrames : public Frames {
+public:
+    EmbreeFrames(const EmbreeLibrary& library, Renewal renewal, const workloads::Mesh& mesh)
+        : Frames(mesh), library_(library), device_(library, 1, "") {
+        const RTCBuildQuality quality = renewal == Renewal::build ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_REFIT;
+        scene_ = library.rtcNewScene(device_.handle());
+        library.rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+        library.rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
+        geometry_ = library.rtcNewGeometry(device_.handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        library.rtcSetGeometryBuildQuality(geometry_, quality);
+        library.rtcSetSharedGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           mesh_.vertices.data(), 0, 3 * sizeof(float), mesh_.vertex_count());
+        library.rtcSetSharedGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh_.indices.data(),
+                                           0, 3 * sizeof(unsigned int), mesh_.triangle_count());
+        library.rtcCommitGeometry(geometry_);
+        library.rtcAttachGeometry(scene_, geometry_);
+        library.rtcCommitScene(scene_);
+        library.check(device_.handle(), "building");
+    }
+    ~EmbreeFrames() override {
+        library_.rtcReleaseGeometry(geometry_);
+        library_.rtcReleaseScene(scene_);
+    }
+
+    void next() override {
+        library_.rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
+        library_.rtcCommitGeometry(geometry_);
+        library_.rtcCommitScene(scene_);
+        library_.check(device_.handle(), "the next frame");
+    }
+
+    std::unique_ptr<Query> query(const QueryRequest& request) const override {
+        if (library_.major() == 3)
+            return std::make_unique<EmbreeSingleQuery<Embree3Calls>>(Embree3Calls(library_, scene_, false), request);
+        return std::make_unique<EmbreeSingleQuery<Embree4Calls>>(Embree4Calls(library_, scene_, false), request);
+    }
+
+private:
+    const EmbreeLibrary& library_;
+    Device device_;
+    RTCScene scene_ = nullptr;
+    RTCGeometry geometry_ = nullptr;
+};
+
 } // namespace
+
+std::unique_ptr<Frames> embree_frames(const EmbreeLibrary& library, Renewal renewal, const workloads::Mesh& mesh) {
+    return std::make_unique<EmbreeFrames>(library, renewal, mesh);
+}
 
 std::unique_ptr<Subject> embree_subject(const EmbreeLibrary& library, const EmbreeSettings& settings) {
     Traits traits;

@@ -1,5 +1,7 @@
 #include "bench/subjects/raywise_subject.h"
 
+#include "bench/subjects/frames.h"
+
 #include <utility>
 #include <vector>
 
@@ -213,7 +215,57 @@ private:
     const char* structure_;
 };
 
+class RaywiseFrames : public Frames {
+public:
+    RaywiseFrames(const Library& library, const char* structure, Renewal renewal, const workloads::Mesh& mesh)
+        : Frames(mesh), library_(library), scene_(nullptr, library.rw_scene_release) {
+        options_.struct_size = sizeof options_;
+        options_.threads = 1;
+        options_.refit = renewal == Renewal::build ? RW_REFIT_NEVER : RW_REFIT_WHERE_POSSIBLE;
+        rw_scene* scene = nullptr;
+        library.check(library.rw_scene_create(nullptr, &scene));
+        scene_.reset(scene);
+        const rw_triangles triangles = described();
+        library.check(library.rw_scene_add_triangles(scene, &triangles, nullptr));
+        library.check(library.rw_scene_set_structure(scene, structure));
+        library.check(library.rw_scene_commit(scene, &options_));
+    }
+
+    void next() override {
+        const rw_triangles triangles = described();
+        rw_scene* scene = nullptr;
+        library_.check(library_.rw_scene_refit(scene_.get(), &triangles, 1, &options_, &scene));
+        scene_.reset(scene);
+    }
+
+    std::unique_ptr<Query> query(const QueryRequest& request) const override {
+        return std::make_unique<SingleQuery<CallsF32, Question::closest>>(library_, scene_.get(), request.rays,
+                                                                          Vec3(0.0));
+    }
+
+private:
+    rw_triangles described() const {
+        rw_triangles triangles{};
+        triangles.struct_size = sizeof triangles;
+        triangles.flags = RW_TRIANGLES_SHARED;
+        triangles.vertex_count = mesh_.vertex_count();
+        triangles.vertices.data = mesh_.vertices.data();
+        triangles.triangle_count = mesh_.triangle_count();
+        triangles.indices.data = mesh_.indices.data();
+        return triangles;
+    }
+
+    const Library& library_;
+    rw_commit_options options_{};
+    std::unique_ptr<rw_scene, decltype(&::rw_scene_release)> scene_;
+};
+
 } // namespace
+
+std::unique_ptr<Frames> raywise_frames(const Library& library, const char* structure, Renewal renewal,
+                                       const workloads::Mesh& mesh) {
+    return std::make_unique<RaywiseFrames>(library, structure, renewal, mesh);
+}
 
 std::unique_ptr<Subject> raywise_subject(const RaywiseSettings& settings, const Library& library) {
     const char* const structure = settings.structure;

@@ -66,6 +66,9 @@ pub const RW_EFFORT_PROBE: i32 = 1;
 pub const RW_EFFORT_MEASURE: i32 = 2;
 pub const RW_RULE_SMALLEST_TOTAL: i32 = 0;
 pub const RW_RULE_HAPALA: i32 = 1;
+pub const RW_REFIT_WHERE_IT_PAYS: i32 = 0;
+pub const RW_REFIT_WHERE_POSSIBLE: i32 = 1;
+pub const RW_REFIT_NEVER: i32 = 2;
 pub const RW_CANDIDATE_CHOSEN: u32 = 1;
 pub const RW_CANDIDATE_FORCED: u32 = 2;
 pub const RW_CANDIDATE_OVER_LIMIT: u32 = 4;
@@ -1056,6 +1059,10 @@ pub struct rw_commit_options {
     pub parallel_for: rw_parallel_for,
     /// handed to parallel_for
     pub parallel_user: *mut ::std::os::raw::c_void,
+    /// RW_REFIT_, for rw_scene_refit; of no effect elsewhere
+    pub refit: i32,
+    /// 0
+    pub reserved: i32,
 }
 #[test]
 fn bindgen_test_layout_rw_commit_options() {
@@ -1063,7 +1070,7 @@ fn bindgen_test_layout_rw_commit_options() {
     let ptr = UNINIT.as_ptr();
     assert_eq!(
         ::std::mem::size_of::<rw_commit_options>(),
-        40usize,
+        48usize,
         "Size of rw_commit_options",
     );
     assert_eq!(
@@ -1100,6 +1107,16 @@ fn bindgen_test_layout_rw_commit_options() {
         unsafe { ::std::ptr::addr_of!((*ptr).parallel_user) as usize - ptr as usize },
         32usize,
         "Offset of field: rw_commit_options::parallel_user",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).refit) as usize - ptr as usize },
+        40usize,
+        "Offset of field: rw_commit_options::refit",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).reserved) as usize - ptr as usize },
+        44usize,
+        "Offset of field: rw_commit_options::reserved",
     );
 }
 impl Default for rw_commit_options {
@@ -1887,18 +1904,34 @@ RW_ERROR_HOST_PARALLEL. On an error the scene is as it was and may be committed 
 ```text
 Does: makes a committed scene of the same triangles at new places: a mesh that deforms, from frame to frame. The
 structure is the old one with new boxes where it has such a form ("bvh") and that pays, which takes a fraction of
-building; else the same structure is built anew. It is chosen anew only when the number of triangles that can be
-hit has changed more than twofold or it would be over the memory limit. Expectations, effort, memory limit, profile
-and a forced structure are those of the old scene. Answers are those of any scene with these meshes.
+building; else the same structure is built anew; options->refit says otherwise. It is chosen anew only when the
+number of triangles that can be hit has changed more than twofold or it would be over the memory limit. Expectations,
+effort, memory limit, profile and a forced structure are those of the old scene. Answers are those of any scene with
+these meshes.
 scene: committed; stays as it is, may be asked meanwhile, and may be released afterwards. Of a view, the scene it
 is of is refitted as well: *refitted is then the same view of that, with what was said for the view.
 meshes: all of the scene's, in the order of adding, all with the same struct_size; each with as many triangles as
-before, and vertices, flags and types of its own. Every vertex and index is checked. indices.data NULL: the mesh
-keeps the indices it has in the old scene (none, if it has none), and then needs as many vertices as there; indices
-that the old scene reads in place (RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's
-vertices are not read: they may be gone, or moved in place, as long as nobody asks the old scene any more.
-mesh_count: as many as the scene has. options: struct_size set; NULL: the defaults.
+before, unless options->refit is RW_REFIT_NEVER, and vertices, flags and types of its own. Every vertex and index is
+checked. indices.data NULL: the mesh keeps the indices it has in the old scene (none, if it has none or is not
+there), and then needs as many vertices and triangles as there; indices that the old scene reads in place
+(RW_TRIANGLES_SHARED) are copied unless the flag is set here too. The old scene's vertices are not read: they may be
+gone, or moved in place, as long as nobody asks the old scene any more.
+mesh_count: as many as the scene has, unless options->refit is RW_REFIT_NEVER. options: struct_size set; NULL: the
+defaults.
 refitted: receives a scene the caller must release.
+Memory: from the second refit on, what scenes made from each other release, and what building takes, is kept for the
+next frame: with what is in use at most twice what was in use at once during the last 32 builds. It goes back to the
+system with the last of these scenes. In steady state a frame takes no large array from the system:
+
+rw_commit_options options = {sizeof options};
+options.refit = RW_REFIT_NEVER; // or leave it: then a "bvh" is refitted
+while (next_frame(&mesh)) {     // the same vertices moved, or another mesh with its indices
+rw_scene *next;
+if (rw_scene_refit(scene, &mesh, 1, &options, &next) != RW_OK) break;
+rw_scene_release(scene);
+scene = next;
+rw_scene_intersect_batch(scene, &rays, &hits, NULL);
+}
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_CANCELLED, RW_ERROR_MEMORY_LIMIT, RW_ERROR_HOST_PARALLEL,
 RW_ERROR_NOT_FINITE, RW_ERROR_COORDINATE_RANGE, RW_ERROR_INDEX_OUT_OF_RANGE,
 RW_ERROR_TOO_MANY, RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for numbers that differ).
@@ -1911,6 +1944,26 @@ RW_ERROR_TOO_MANY, RW_ERROR_RESERVED, RW_ERROR_INVALID_ARGUMENT (also for number
         options: *const rw_commit_options,
         refitted: *mut *mut rw_scene,
     ) -> i32;
+    /**
+```text
+Does: says how much memory of released scenes, and of builds that are done, the process keeps for scenes to come. A
+program that makes a scene, asks it and releases it, over and over, need not wait for the system to clear the same
+pages again; where scenes are refitted frame after frame that is so by itself. At first 0: nothing is kept. Arrays of
+256 KiB or more are, and with what is in use at most twice what was in use at once during the last 32 builds.
+bytes: at most so many. What is kept beyond that goes back to the system at once, what refitted scenes keep included
+(they keep it again from the next frame on); so 0 gives back all there is.
+Returns: RW_OK. Threads: any.
+```
+*/
+    pub fn rw_memory_keep(bytes: u64) -> i32;
+    /**
+```text
+Does: tells how much memory is kept right now, for frames of refitted scenes or because of rw_memory_keep.
+bytes: receives it.
+Returns: RW_OK.
+```
+*/
+    pub fn rw_memory_kept(bytes: *mut u64) -> i32;
     /**
 ```text
 Does: tells the box around all triangles that can be hit.

@@ -98,6 +98,28 @@ impl fmt::Debug for QueryOptions<'_> {
     }
 }
 
+/// What [`Scene::refit_with`](crate::Scene::refit_with) does with the old structure (`RW_REFIT_`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RefitPolicy {
+    /// New boxes around it, where that is reckoned to pay by the rays expected.
+    #[default]
+    WhereItPays,
+    /// New boxes around it wherever it has such a form, however they overlap.
+    WherePossible,
+    /// Built anew; numbers of triangles and meshes may change from frame to frame.
+    Never,
+}
+
+impl RefitPolicy {
+    fn raw(self) -> i32 {
+        match self {
+            RefitPolicy::WhereItPays => sys::RW_REFIT_WHERE_IT_PAYS,
+            RefitPolicy::WherePossible => sys::RW_REFIT_WHERE_POSSIBLE,
+            RefitPolicy::Never => sys::RW_REFIT_NEVER,
+        }
+    }
+}
+
 type Progress<'a> = Box<dyn FnMut(f64, &str) -> ControlFlow<()> + Send + 'a>;
 
 /// How to run a build (`rw_commit_options`).
@@ -115,6 +137,7 @@ pub struct CommitOptions<'a> {
     threads: u32,
     progress: Option<Progress<'a>>,
     parallel_for: Option<ParallelFor<'a>>,
+    refit: RefitPolicy,
 }
 
 impl<'a> CommitOptions<'a> {
@@ -149,6 +172,13 @@ impl<'a> CommitOptions<'a> {
         self
     }
 
+    /// What becomes of the structure when the build is a refit; of no effect on others.
+    #[must_use]
+    pub fn refit(mut self, policy: RefitPolicy) -> Self {
+        self.refit = policy;
+        self
+    }
+
     /// Makes a C call with these options, and goes on with a panic of the caller's code afterwards.
     pub(crate) fn with_raw<R>(self, call: impl FnOnce(&sys::rw_commit_options) -> R) -> R {
         let host = Host::new(self.parallel_for);
@@ -162,6 +192,8 @@ impl<'a> CommitOptions<'a> {
             progress_user,
             parallel_for,
             parallel_user,
+            refit: self.refit.raw(),
+            reserved: 0,
         });
         Listener::resume_panic(listener);
         host.resume_panic();
@@ -175,6 +207,7 @@ impl fmt::Debug for CommitOptions<'_> {
             .field("threads", &self.threads)
             .field("progress", &self.progress.as_ref().map(|_| ".."))
             .field("parallel_for", &self.parallel_for.map(|_| ".."))
+            .field("refit", &self.refit)
             .finish()
     }
 }

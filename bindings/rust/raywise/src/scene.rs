@@ -109,7 +109,25 @@ impl Scene {
         self.refit_with(meshes, CommitOptions::new())
     }
 
-    /// [`refit`](Scene::refit) with a number of threads, progress, cancelling or the host's threads. Wraps `rw_scene_refit`.
+    /// [`refit`](Scene::refit) with a number of threads, progress, cancelling or the host's threads, or with a
+    /// [policy](crate::RefitPolicy): where all is built anew, numbers of triangles and meshes may change. From the second
+    /// frame on the memory of dropped scenes is kept for the next ones. Wraps `rw_scene_refit`.
+    ///
+    /// ```
+    /// use raywise::{CommitOptions, RefitPolicy, SceneBuilder, Triangles};
+    /// let mut builder = SceneBuilder::new()?;
+    /// builder.add_triangles(&[[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0_u32, 1, 2]])?;
+    /// let mut scene = builder.commit()?;
+    /// for frame in 1..4 {
+    ///     let corner = [frame as f32, 0.0, 0.0];
+    ///     let vertices = [[0.0, 0.0, 0.0], corner, [0.0, 1.0, 0.0]];
+    ///     let indices = vec![[0_u32, 1, 2]; frame]; // one more in each frame
+    ///     let options = CommitOptions::new().refit(RefitPolicy::Never);
+    ///     scene = scene.refit_with(&[Triangles::new(&vertices, &indices)], options)?;
+    ///     assert_eq!(scene.statistics()?.triangle_count, frame as u64);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) for numbers that differ, `NOT_FINITE`,

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use common::{icosphere, square, Result, TestMesh};
-use raywise::{CommitOptions, Ray, Scene, SceneBuilder, SharedTriangles, Status, Triangles};
+use raywise::{CommitOptions, Ray, RefitPolicy, Scene, SceneBuilder, SharedTriangles, Status, Triangles};
 
 fn scene_of(mesh: &TestMesh, structure: &str) -> Result<Scene> {
     let mut builder = SceneBuilder::new()?;
@@ -125,5 +125,48 @@ fn progress_is_told_and_can_cancel() -> Result {
     let options = CommitOptions::new().progress(|_, _| ControlFlow::Break(()));
     let error = scene.refit_with(&[mesh.triangles()], options).expect_err("it was cancelled");
     assert_eq!(error.status(), Some(Status::CANCELLED));
+    Ok(())
+}
+
+#[test]
+fn structures_are_refitted_or_built_as_asked() -> Result {
+    let rest = icosphere(2);
+    let now = moved(&rest, twisted);
+    for structure in raywise::structures()? {
+        let scene = scene_of(&rest, structure)?;
+        for policy in [RefitPolicy::WhereItPays, RefitPolicy::WherePossible, RefitPolicy::Never] {
+            let next = scene.refit_with(&[now.triangles()], CommitOptions::new().refit(policy))?;
+            let refitted = policy != RefitPolicy::Never && structure.starts_with("bvh");
+            assert_eq!(next.statistics()?.refits, u64::from(refitted), "{structure}, {policy:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn numbers_may_change_where_all_is_built_anew() -> Result {
+    let (two, three) = (icosphere(2), icosphere(3));
+    let scene = scene_of(&two, "bvh")?;
+    let error = scene.refit(&[three.triangles()]).unwrap_err();
+    assert_eq!(error.status(), Status::INVALID_ARGUMENT);
+    let never = || CommitOptions::new().refit(RefitPolicy::Never);
+    let more = scene.refit_with(&[three.triangles(), two.triangles()], never())?;
+    assert_eq!(more.statistics()?.triangle_count as usize, three.triangles.len() + two.triangles.len());
+    let fresh = scene_of(&three, "linear_scan")?;
+    let one = more.refit_with(&[three.triangles()], never())?;
+    for ray in rays_at(&three) {
+        assert_eq!(one.intersect(&ray)?, fresh.intersect(&ray)?);
+    }
+    Ok(())
+}
+
+#[test]
+fn memory_is_kept_as_told() -> Result {
+    raywise::keep_memory(0)?;
+    let mesh = icosphere(5);
+    raywise::keep_memory(100 << 20)?;
+    drop(scene_of(&mesh, "bvh")?);
+    assert!((1..=100 << 20).contains(&raywise::kept_memory()?));
+    raywise::keep_memory(0)?;
     Ok(())
 }

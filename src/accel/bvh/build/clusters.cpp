@@ -20,7 +20,7 @@ public:
         : owner_(owner), scale_(fill_lanes(scale)), boxes_(range_size), clusters_(PageArray<BuildItem>(range_size)) {}
 
     // Returns the clusters.
-    std::vector<BuildItem> build(std::uint32_t begin) {
+    PageVector<BuildItem> build(std::uint32_t begin) {
         load(begin);
         for (int round = 0; round < most_rounds; ++round) {
             copy_boxes();
@@ -29,7 +29,7 @@ public:
             merge();
             if (count_ > least_shrink * before) break;
         }
-        std::vector<BuildItem> result(clusters_.data(), clusters_.data() + count_);
+        PageVector<BuildItem> result(clusters_.data(), clusters_.data() + count_);
         for (BuildItem& cluster : result) {
             cluster.id = begin + (cluster.count > 1 ? cluster.id - range_size : cluster.id);
         }
@@ -114,7 +114,7 @@ private:
 void Clusters::build(const Bounds& bounds, const Parallel& parallel, const std::function<void(std::uint64_t)>& report) {
     const std::uint64_t ranges = (count_ + range_size - 1) / range_size;
     nodes_ = PageArray<Node>(count_);
-    std::vector<std::vector<BuildItem>> tops(ranges);
+    std::vector<PageVector<BuildItem>> tops(ranges);
     const float scale = bounds.reciprocal_size();
     parallel.for_blocks(ranges, 1, [&](std::uint64_t begin, std::uint64_t end) {
         Range range(*this, scale);
@@ -139,7 +139,7 @@ void Clusters::release() {
     tops_ = {};
 }
 
-void Clusters::open(const BuildItem& cluster, std::vector<BuildItem>& parts) const {
+void Clusters::open(const BuildItem& cluster, PageVector<BuildItem>& parts) const {
     if (cluster.count <= 2) {
         parts.push_back(cluster);
     } else {
@@ -147,7 +147,7 @@ void Clusters::open(const BuildItem& cluster, std::vector<BuildItem>& parts) con
     }
 }
 
-void Clusters::open(std::uint32_t range, const Node& opened, std::vector<BuildItem>& parts) const {
+void Clusters::open(std::uint32_t range, const Node& opened, PageVector<BuildItem>& parts) const {
     for (const std::uint16_t number : opened.child) {
         BuildItem part;
         if (number < range_size) {

@@ -35,10 +35,10 @@ public:
     void build(const Bounds& bounds, const Parallel& parallel, const std::function<void(std::uint64_t)>& report);
 
     // One item for each cluster, along the curve; id names the cluster.
-    std::vector<BuildItem>& items() { return tops_; }
+    PageVector<BuildItem>& items() { return tops_; }
 
     // Appends what a cluster was merged from: the largest clusters of at most two primitives.
-    void open(const BuildItem& cluster, std::vector<BuildItem>& parts) const;
+    void open(const BuildItem& cluster, PageVector<BuildItem>& parts) const;
 
     // The references that a cluster of at most two primitives is made of.
     std::array<const BuildItem*, 2> references(const BuildItem& cluster) const;
@@ -59,7 +59,7 @@ private:
 
     class Range;
 
-    void open(std::uint32_t range, const Node& node, std::vector<BuildItem>& parts) const;
+    void open(std::uint32_t range, const Node& node, PageVector<BuildItem>& parts) const;
     // Of a merged cluster.
     const Node& node(const BuildItem& cluster) const { return nodes_[cluster.id]; }
     static std::uint32_t range_of(const BuildItem& cluster) { return cluster.id / range_size * range_size; }
@@ -68,7 +68,7 @@ private:
     PageArray<MortonKey> keys_; // the codes make room for the primitives
     const std::uint32_t count_;
     PageArray<Node> nodes_; // of each range, from the number of its first reference on
-    std::vector<BuildItem> tops_;
+    PageVector<BuildItem> tops_;
 };
 
 } // namespace raywise

@@ -91,7 +91,7 @@ public:
         make_top_node(top, 0, {ranges_.all(), 0});
     }
 
-    void make_subtree(const MortonPart& root, std::vector<WideNode>& nodes) {
+    void make_subtree(const MortonPart& root, PageVector<WideNode>& nodes) {
         nodes.reserve(root.range.count() / 24 + 1);
         make_node(nodes, root);
     }
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    Child make_node(std::vector<WideNode>& nodes, const MortonPart& part) {
+    Child make_node(PageVector<WideNode>& nodes, const MortonPart& part) {
         const auto index = static_cast<std::uint32_t>(nodes.size());
         nodes.emplace_back();
         const Children children = choose_children(part);
@@ -233,7 +233,7 @@ void make_top_kernel(MortonRanges& ranges, const Primitives& primitives, WideBvh
 }
 
 void make_subtree_kernel(MortonRanges& ranges, const Primitives& primitives, const MortonPart& root, WideBvh& bvh,
-                         std::vector<WideNode>& nodes) {
+                         PageVector<WideNode>& nodes) {
     MortonNodes(ranges, primitives, bvh).make_subtree(root, nodes);
 }
 
@@ -254,7 +254,7 @@ MortonTop make_morton_top(MortonRanges& ranges, const Primitives& primitives, Wi
 }
 
 void make_morton_subtree(MortonRanges& ranges, const Primitives& primitives, const MortonPart& root, WideBvh& bvh,
-                         std::vector<WideNode>& nodes) {
+                         PageVector<WideNode>& nodes) {
     HWY_DYNAMIC_DISPATCH(make_subtree_kernel)(ranges, primitives, root, bvh, nodes);
 }
 

@@ -17,7 +17,7 @@ struct MortonPart {
 
 // The nodes above the subtrees, and what those are made of.
 struct MortonTop {
-    std::vector<WideNode> nodes;
+    PageVector<WideNode> nodes;
     std::vector<NodeSubtree> subtrees;
     std::vector<MortonPart> roots;
 };
@@ -25,6 +25,6 @@ struct MortonTop {
 // bvh: has its frame and its blocks, whose leaves are written. Subtrees can be made in any order, by any number of threads.
 MortonTop make_morton_top(MortonRanges& ranges, const Primitives& primitives, WideBvh& bvh);
 void make_morton_subtree(MortonRanges& ranges, const Primitives& primitives, const MortonPart& root, WideBvh& bvh,
-                         std::vector<WideNode>& nodes);
+                         PageVector<WideNode>& nodes);
 
 } // namespace raywise

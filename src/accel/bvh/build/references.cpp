@@ -37,7 +37,7 @@ BuildReferences gather_references(const BuildInput& input, const SceneFrame& fra
                                   const std::function<void(std::uint64_t)>& report) {
     const Primitives& primitives = input.primitives;
     const Vec3 center = frame.center();
-    std::vector<std::uint32_t> hittable; // empty when all are
+    PageVector<std::uint32_t> hittable; // empty when all are
     if (primitives.hittable_count() != primitives.count()) {
         hittable.reserve(primitives.hittable_count());
         for (std::uint32_t i = 0; i < primitives.count(); ++i) {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace raywise {
 namespace {
@@ -82,8 +81,8 @@ public:
 
     // Pairs and references in the order of depth.
     void write(BvhTree& tree) const {
-        std::vector<BvhPair> pairs;
-        std::vector<std::uint32_t> references;
+        PageVector<BvhPair> pairs;
+        PageVector<std::uint32_t> references;
         pairs.reserve(tree.pairs.size());
         references.reserve(tree.references.size());
         tree.root = write(root, tree.references, pairs, references);
@@ -137,8 +136,8 @@ private:
         nodes_[by].parent = parent;
     }
 
-    BvhNode write(std::uint32_t index, const std::vector<std::uint32_t>& from, std::vector<BvhPair>& pairs,
-                  std::vector<std::uint32_t>& references) const {
+    BvhNode write(std::uint32_t index, const PageVector<std::uint32_t>& from, PageVector<BvhPair>& pairs,
+                  PageVector<std::uint32_t>& references) const {
         const Node& node = nodes_[index];
         if (node.is_leaf) {
             const auto first = static_cast<std::uint32_t>(references.size());
@@ -275,7 +274,7 @@ double gain_of(const LinkedTree& tree, const Move& move) {
 
 // Returns what the areas of all inner nodes became less by. report: called now and then, so that a build can be stopped.
 double run_pass(LinkedTree& tree, const Parallel& parallel, const std::function<void(std::uint64_t)>& report) {
-    std::vector<Move> moves(tree.size() - 1); // of all nodes but the root
+    PageVector<Move> moves(tree.size() - 1); // of all nodes but the root
     parallel.for_blocks(moves.size(), 256, [&](std::uint64_t begin, std::uint64_t end) {
         report(0);
         for (std::uint64_t i = begin; i < end; ++i) {

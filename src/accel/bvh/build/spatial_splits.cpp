@@ -198,9 +198,9 @@ private:
 
     // Where each item goes: below the plane, above it, or in parts to both. What is on both sides of the plane may be whole
     // on one where that costs less (the paper's reference unsplitting).
-    std::vector<Side> sides_of(const SplitTask& task, const SpatialSplit& split) const {
+    PageVector<Side> sides_of(const SplitTask& task, const SpatialSplit& split) const {
         const BuildItem* const items = items_ + task.begin;
-        std::vector<Side> sides(task.count);
+        PageVector<Side> sides(task.count);
         Bounds bounds[2] = {Bounds::none(), Bounds::none()};
         double counts[2] = {0.0, 0.0};
         for (std::uint32_t i = 0; i < task.count; ++i) {
@@ -245,7 +245,7 @@ private:
 
     // Fails when a side would be left without any items.
     bool cut(const SplitTask& task, const SpatialSplit& split, std::array<SplitTask, 2>& halves) const {
-        const std::vector<Side> sides = sides_of(task, split);
+        const PageVector<Side> sides = sides_of(task, split);
         const auto count = [&](Side side) {
             return static_cast<std::uint32_t>(std::count(sides.begin(), sides.end(), side));
         };
@@ -312,8 +312,8 @@ struct Job {
     SplitTask task;
     std::uint32_t pair; // where its root goes: a child of a top pair
     int child;
-    std::vector<BvhPair> pairs;
-    std::vector<std::uint32_t> references;
+    PageVector<BvhPair> pairs;
+    PageVector<std::uint32_t> references;
 };
 
 BvhNode build_subtree(const SplitTask& task, const TaskSplitter& splitter, Job& job) {
@@ -423,7 +423,7 @@ private:
     const std::function<void(std::uint64_t)>& report_;
     BvhTree& tree_;
     std::uint32_t job_size_ = 0;
-    std::vector<BvhPair> top_;
+    PageVector<BvhPair> top_;
     std::vector<Job> jobs_;
 };
 

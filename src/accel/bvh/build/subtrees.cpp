@@ -30,7 +30,7 @@ void fit_inner_children(WideNode* nodes, std::size_t count) {
     }
 }
 
-PageArray<WideNode> assemble(std::vector<WideNode> top, std::vector<NodeSubtree>& subtrees, const Parallel& parallel) {
+PageArray<WideNode> assemble(PageVector<WideNode> top, std::vector<NodeSubtree>& subtrees, const Parallel& parallel) {
     std::vector<std::uint32_t> offsets;
     offsets.reserve(subtrees.size());
     std::size_t total = top.size();
@@ -42,7 +42,7 @@ PageArray<WideNode> assemble(std::vector<WideNode> top, std::vector<NodeSubtree>
     PageArray<WideNode> all(total);
     std::copy(top.begin(), top.end(), all.begin());
     parallel.for_each(subtrees.size(), [&](std::uint64_t i) {
-        std::vector<WideNode>& nodes = subtrees[i].nodes;
+        PageVector<WideNode>& nodes = subtrees[i].nodes;
         WideNode* const place = all.data() + offsets[i];
         std::copy(nodes.begin(), nodes.end(), place);
         for (std::size_t k = 0; k < nodes.size(); ++k) {

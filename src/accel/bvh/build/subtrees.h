@@ -17,7 +17,7 @@ inline constexpr std::uint32_t subtree_size = 16384;
 struct NodeSubtree {
     std::uint32_t parent; // the top node it hangs below, and as which child
     std::uint32_t child;
-    std::vector<WideNode> nodes; // numbered from 0, the root, on; every other one behind its parent
+    PageVector<WideNode> nodes; // numbered from 0, the root, on; every other one behind its parent
 };
 
 WideNode empty_node();
@@ -27,6 +27,6 @@ WideNode empty_node();
 void fit_inner_children(WideNode* nodes, std::size_t count);
 
 // The top's nodes, and behind them those of the subtrees, whose memory is given back. Fits the top.
-PageArray<WideNode> assemble(std::vector<WideNode> top, std::vector<NodeSubtree>& subtrees, const Parallel& parallel);
+PageArray<WideNode> assemble(PageVector<WideNode> top, std::vector<NodeSubtree>& subtrees, const Parallel& parallel);
 
 } // namespace raywise

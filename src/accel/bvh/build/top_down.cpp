@@ -2,6 +2,7 @@
 
 #include "accel/bvh/build/kernels.h"
 #include "accel/bvh/build/parts.h"
+#include "base/page_array.h"
 
 #include <algorithm>
 #include <mutex>
@@ -34,7 +35,7 @@ public:
         pairs_.reserve(part.primitives / std::max(2u, costs_.block_size));
         return build_node(part, items, false);
     }
-    std::vector<BvhPair>& pairs() { return pairs_; }
+    PageVector<BvhPair>& pairs() { return pairs_; }
 
 private:
     BvhNode build_node(const Part& part, BuildItem* items, bool opened) {
@@ -94,9 +95,9 @@ private:
     const Clusters& clusters_;
     const TreeCosts& costs_;
     std::uint32_t* const references_;
-    std::vector<BuildItem> scratch_;
-    std::vector<BuildItem> opened_;
-    std::vector<BvhPair> pairs_;
+    PageVector<BuildItem> scratch_;
+    PageVector<BuildItem> opened_;
+    PageVector<BvhPair> pairs_;
 };
 
 class TopDownBuilder {
@@ -123,7 +124,7 @@ private:
         Part part;
         std::uint32_t pair; // where its root goes: a child of a top pair
         int child;
-        std::vector<BvhPair> pairs;
+        PageVector<BvhPair> pairs;
     };
 
     // ---- The top of the tree: one node after the other, each with all threads.
@@ -138,7 +139,7 @@ private:
         const auto primitives = static_cast<std::uint32_t>(tree_.references.size());
         Part root{0, count, 0, primitives, 0, bounds, Bounds::none()};
         for (const BuildItem& item : items_) root.centroids.extend(Bounds::of_centroid(item));
-        std::vector<BuildItem> scratch(count <= job_size_ ? 0 : count);
+        PageVector<BuildItem> scratch(count <= job_size_ ? 0 : count);
         std::vector<Open> open{{root, 0, no_axis}};
         while (!open.empty()) {
             const Open node = open.back();
@@ -226,13 +227,13 @@ private:
     }
 
     Clusters& clusters_;
-    std::vector<BuildItem>& items_;
+    PageVector<BuildItem>& items_;
     const TreeCosts& costs_;
     const Parallel& parallel_;
     const std::function<void(std::uint64_t)>& report_;
     BvhTree& tree_;
     const std::uint32_t job_size_;
-    std::vector<BvhPair> top_;
+    PageVector<BvhPair> top_;
     std::vector<Job> jobs_;
 };
 

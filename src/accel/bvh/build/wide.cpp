@@ -48,7 +48,7 @@ private:
     };
 
     const BvhTree& tree_;
-    std::vector<Extent> of_pair_;
+    PageVector<Extent> of_pair_;
 };
 
 using Children = std::vector<Subtree>;
@@ -69,7 +69,7 @@ public:
         make_top(0, extents_.of(tree_.root), leaves);
         input_.parallel.for_each(subtrees_.size(), [&](std::uint64_t i) {
             const Subtree& root = roots_[i];
-            std::vector<WideNode>& nodes = subtrees_[i].nodes;
+            PageVector<WideNode>& nodes = subtrees_[i].nodes;
             nodes.reserve(root.count / 16 + 1);
             nodes.emplace_back();
             LeafWriter leaves_of_subtree(bvh_, input_.primitives);
@@ -103,7 +103,7 @@ private:
     }
 
     // Siblings lie side by side.
-    void make_node(std::vector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
+    void make_node(PageVector<WideNode>& nodes, std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         nodes[index] = empty_node();
         auto next = static_cast<std::uint32_t>(nodes.size());
@@ -173,7 +173,7 @@ private:
     const double progress_begin_;
     const Extents extents_;
     WideBvh bvh_;
-    std::vector<WideNode> top_;
+    PageVector<WideNode> top_;
     std::vector<NodeSubtree> subtrees_;
     std::vector<Subtree> roots_; // of the subtrees
     std::atomic<std::uint64_t> done_{0};
