@@ -34,9 +34,10 @@ DenseRegion dense_region(const Primitives& primitives) {
     const std::vector<Vec3> middles = sampled_middles(primitives);
     DenseRegion region;
     if (middles.empty()) {
-        if (primitives.bounds().empty()) return region;
-        region.center = primitives.bounds().center();
-        region.radius = max_component(primitives.bounds().size());
+        const Box bounds = primitives.outer_bounds();
+        if (bounds.empty()) return region;
+        region.center = bounds.center();
+        region.radius = max_component(bounds.size());
         return region;
     }
     const std::size_t n = middles.size();
@@ -68,7 +69,7 @@ SceneFrame scene_frame(const Primitives& primitives) {
     const Vec3 center = SceneFrame::choose_center(dense.center, dense.radius);
     // Where the center is not the median, most triangles lie within this of it.
     const double radius = dense.radius + max_component(magnitudes(dense.center - center));
-    return {center, radius, primitives.bounds()};
+    return {center, radius, primitives.outer_bounds()};
 }
 
 } // namespace raywise

@@ -129,12 +129,18 @@ void TriangleMesh::check(bool skip_invalid, const std::string& name) {
     }
 }
 
-bool TriangleMesh::vertices_are_usable() const {
+bool TriangleMesh::vertices_are_usable() {
     const StridedArray& vertices = arrays_.vertices;
     if (vertices.is_packed())
-        return all_within_float32(vertices.data, 3 * arrays_.vertex_count, vertices.scalar == Scalar::float64);
+        return bound_points(vertices.data, arrays_.vertex_count, vertices.scalar == Scalar::float64, vertex_bounds_);
+    Box bounds;
     bool usable = true;
-    for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) usable = is_usable(vertices.vec3(i)) && usable;
+    for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) {
+        const Vec3 p = vertices.vec3(i);
+        usable = is_usable(p) && usable;
+        bounds.extend(p);
+    }
+    if (usable) vertex_bounds_ = bounds;
     return usable;
 }
 

@@ -11,6 +11,10 @@ namespace {
 // triangles on an Intel Xeon with AVX-512 (family 6, model 207), 2026-11-26: docs/decisions/0012-linear-scan.md.
 constexpr std::uint64_t gathering_pays_from = 8;
 
+// For more rays something else than a linear scan is chosen anyway, on scenes that are not tiny; for that the number of triangles with area is
+// worth knowing before.
+constexpr std::uint64_t areas_matter_from = 256;
+
 // Scenes of fewer triangles are built on the caller's thread: that takes 0.1 ms (a kd_tree 3), and what could be shared of it is over
 // before another thread is awake.
 constexpr std::uint64_t fewest_for_build_threads = 1024;
@@ -65,6 +69,8 @@ unsigned threads_for(std::uint64_t rays, std::uint64_t fewest, unsigned threads)
 } // namespace
 
 bool worth_gathering(const Workload& workload) { return !workload.rays || *workload.rays >= gathering_pays_from; }
+
+bool areas_can_wait(const Workload& workload) { return workload.rays && *workload.rays < areas_matter_from; }
 
 bool worth_build_threads(std::uint64_t primitives) { return primitives >= fewest_for_build_threads; }
 

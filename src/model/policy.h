@@ -16,6 +16,10 @@ namespace raywise {
 // Whether so many rays pay for what a linear scan makes ready for them, the triangles in blocks. Fewer read the caller's arrays.
 bool worth_gathering(const Workload& workload);
 
+// Whether so few rays are coming that a structure is likely which does not need the triangles' areas; see AreasAre in
+// geometry/primitives.h. Where another one is chosen they are looked at when it is built.
+bool areas_can_wait(const Workload& workload);
+
 // Whether a build of so many primitives is shared among the library's own threads.
 bool worth_build_threads(std::uint64_t primitives);
 

@@ -17,7 +17,7 @@ constexpr std::uint64_t blocks_per_task = 2048;
 LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) {
     if (primitives_.hittable_count() == 0) return;
     frame_ = scene_frame(primitives_);
-    if (input.few_rays) return;
+    if (input.few_rays || primitives_.count() > 16384) return;
     const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
     // Without blocks a scan is slower; that is no reason to have none.
     if (input.memory_limit != 0 && sizeof *this + size * sizeof(float) > input.memory_limit) return;

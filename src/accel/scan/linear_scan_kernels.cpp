@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "accel/scan/outcodes-inl.h"
 #include "accel/scan/scan_ray.h"
 #include "geometry/corner_lines-inl.h"
 
@@ -143,25 +144,155 @@ void gather_kernel(const Primitives& primitives, const SceneFrame& frame, std::u
     fill_lanes(blocks, count, corner_blocks_for(count) * corner_block);
 }
 
-// All rays of a group through all triangles. `sinks`, one for each, take what may be hit.
+// Rays that go through the triangles together. `sinks`, one for each, take what may be hit.
+template <class Sink>
+struct RayGroup {
+    const ScanRay* rays;
+    Sink* sinks;
+    std::uint32_t live; // a bit for each ray that wants more
+
+    void test(std::size_t ray, std::uint32_t primitive) {
+        if (sinks[ray](primitive)) live &= ~(std::uint32_t{1} << ray);
+    }
+};
+
+// The rays of a group through the primitives of a tile, first ... first + count - 1.
+template <class Sink>
+void scan_tile(const ScannedScene& scene, std::uint32_t first, std::uint32_t count, RayGroup<Sink>& group) {
+    HWY_ALIGN float gathered[tile_blocks * corner_block_numbers];
+    const float* blocks = gathered;
+    if (scene.blocks != nullptr) {
+        blocks = scene.blocks + first / corner_block * corner_block_numbers;
+    } else {
+        gather_kernel(scene.primitives, scene.frame, first, first + count, gathered);
+    }
+    for (std::uint32_t rays = group.live; rays != 0; rays &= rays - 1) {
+        const auto i = static_cast<std::size_t>(__builtin_ctz(rays));
+        if (scan_blocks(group.rays[i], blocks, corner_blocks_for(count), first, group.sinks[i]))
+            group.live &= ~(std::uint32_t{1} << i);
+    }
+}
+
+template <class Sink>
+void scan_tiles(const ScannedScene& scene, std::uint32_t first, std::uint32_t end, RayGroup<Sink>& group) {
+    for (; first < end && group.live != 0; first += std::min(tile_triangles, end - first))
+        scan_tile(scene, first, std::min(tile_triangles, end - first), group);
+}
+
+// What outcodes leave of a tile's triangles: how many corners are around a ray depends on how large triangles are, and how they lie to the
+// axes. Where they are many, the tile is scanned as others are, which rules out more.
+class Remaining {
+public:
+    explicit Remaining(std::size_t rays) : most_pairs_(32 + 8 * rays) {}
+
+    // Returns false where there are too many.
+    HWY_INLINE bool add(std::uint32_t triangle, std::uint32_t rays) {
+        pairs_ += static_cast<std::size_t>(__builtin_popcount(rays));
+        if (count_ == most || pairs_ > most_pairs_) return false;
+        triangles_[count_] = triangle;
+        rays_[count_] = rays;
+        ++count_;
+        return true;
+    }
+    void clear() { count_ = pairs_ = 0; }
+
+    template <class Sink>
+    void test(std::uint32_t first_primitive, RayGroup<Sink>& group) const {
+        for (std::size_t k = 0; k < count_; ++k) {
+            for (std::uint32_t rays = rays_[k] & group.live; rays != 0; rays &= rays - 1)
+                group.test(static_cast<std::size_t>(__builtin_ctz(rays)), first_primitive + triangles_[k]);
+        }
+    }
+
+private:
+    static constexpr std::size_t most = 64;
+    const std::size_t most_pairs_;
+    std::size_t count_ = 0;
+    std::size_t pairs_ = 0;
+    std::uint32_t triangles_[most];
+    std::uint32_t rays_[most];
+};
+
+// The triangles of a mesh, whose vertices have codes, against a group.
+template <class Codes, class Sink>
+void scan_codes(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32_t first_primitive,
+                const typename Codes::Code* codes, RayGroup<Sink>& group) {
+    with_indices(mesh.arrays().indices, [&](const auto& index) HWY_ATTR {
+        Remaining remaining(static_cast<std::size_t>(__builtin_popcount(group.live)));
+        for (std::uint32_t begin = 0; begin < mesh.triangle_count() && group.live != 0;) {
+            const std::uint32_t count = std::min(tile_triangles, mesh.triangle_count() - begin);
+            remaining.clear();
+            bool all_fit = true;
+            for (std::uint32_t i = begin; i < begin + count; ++i) {
+                const std::uint32_t near = group.live & Codes::near(codes[index(i, 0)] & codes[index(i, 1)] &
+                                                                    codes[index(i, 2)]);
+                if (HWY_LIKELY(near == 0)) continue;
+                all_fit = remaining.add(i, near);
+                if (!all_fit) break;
+            }
+            if (all_fit) {
+                remaining.test(first_primitive, group);
+            } else {
+                scan_tile(scene, first_primitive + begin, count, group);
+            }
+            begin += count;
+        }
+    });
+}
+
+// Fewer triangles are not worth it; and of vertices that belong to other meshes as well only so many are looked at for nothing.
+constexpr std::uint32_t fewest_for_codes = 256;
+constexpr std::uint64_t most_vertices_per_triangle = 3;
+// The rest of the memory is worth more to the caller.
+constexpr std::uint64_t most_code_bytes = std::uint64_t{64} << 20;
+
+bool suits_codes(const TriangleMesh& mesh) {
+    return mesh.invalid_count() == 0 && !mesh.vertex_bounds().empty() && mesh.triangle_count() >= fewest_for_codes &&
+           mesh.arrays().vertex_count <= most_vertices_per_triangle * mesh.triangle_count();
+}
+
+// The rays of a group, Codes::rays at most, through a mesh. Returns false, with nothing done, where there is no memory for it.
+template <class Codes, class Sink>
+bool scan_mesh(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32_t first_primitive,
+               RayGroup<Sink>& group) {
+    using Code = typename Codes::Code;
+    // Behind the last there is room for what vectors write there.
+    const std::uint64_t vertices = mesh.arrays().vertex_count;
+    const std::uint64_t bytes = (vertices + 16) * sizeof(Code);
+    if (bytes > most_code_bytes) return false;
+    CodeMemory memory;
+    auto* const codes = reinterpret_cast<Code*>(memory.take(bytes));
+    if (codes == nullptr) return false;
+    with_vertices(mesh.arrays().vertices, corner_frame(scene.frame), [&](const auto& rows, float scale) HWY_ATTR {
+        OutcodeRay rays[Codes::rays];
+        for (std::size_t i = 0; i < Codes::rays; ++i) {
+            if ((group.live >> i & 1) != 0) rays[i] = OutcodeRay(group.rays[i], scale);
+        }
+        Codes::note(rays, rows, vertices, codes);
+    });
+    scan_codes<Codes>(scene, mesh, first_primitive, codes, group);
+    return true;
+}
+
+// All rays of a group through all triangles.
 template <class Sink>
 void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size_t count) {
-    HWY_ALIGN float gathered[tile_blocks * corner_block_numbers];
-    const std::uint32_t triangles = scene.primitives.count();
-    bool done[rays_together] = {};
-    std::size_t left = count;
-    for (std::uint32_t first = 0; first < triangles && left > 0; first += tile_triangles) {
-        const std::uint32_t here = std::min(tile_triangles, triangles - first);
-        const float* blocks = gathered;
-        if (scene.blocks != nullptr) {
-            blocks = scene.blocks + first / corner_block * corner_block_numbers;
-        } else {
-            gather_kernel(scene.primitives, scene.frame, first, first + here, gathered);
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (done[i] || !scan_blocks(rays[i], blocks, corner_blocks_for(here), first, sinks[i])) continue;
-            done[i] = true;
-            --left;
+    using Many = ManyRaysCode<16>;
+    if (scene.blocks != nullptr) {
+        RayGroup<Sink> group{rays, sinks, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)};
+        scan_tiles(scene, 0, scene.primitives.count(), group);
+        return;
+    }
+    for (std::size_t begin = 0; begin < count; begin += Many::rays) {
+        const std::size_t size = std::min(Many::rays, count - begin);
+        RayGroup<Sink> group{rays + begin, sinks + begin, (std::uint32_t{1} << size) - 1};
+        std::uint32_t first = 0;
+        for (const auto& mesh : scene.primitives.meshes()) {
+            const std::uint32_t end = first + mesh->triangle_count();
+            const bool done = suits_codes(*mesh) && (size == 1 ? scan_mesh<OneRayCode>(scene, *mesh, first, group)
+                                                               : scan_mesh<Many>(scene, *mesh, first, group));
+            if (!done) scan_tiles(scene, first, end, group);
+            first = end;
         }
     }
 }
