@@ -3,6 +3,7 @@
 #include "guard.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -13,8 +14,8 @@ Error bad_argument(const std::string& message) { return {Status::ERROR_INVALID_A
 Error bad_strides(const std::string& message) { return {Status::ERROR_OVERLAP, message}; }
 
 // The type an array has, 0 standing for the usual one. `allowed` lists what the place takes, the usual one first.
-Scalar read_type(std::int32_t type, const std::vector<std::int32_t>& allowed, const std::string& name) {
-    const std::int32_t actual = type == RW_TYPE_DEFAULT ? allowed.front() : type;
+Scalar read_type(std::int32_t type, std::initializer_list<std::int32_t> allowed, const std::string& name) {
+    const std::int32_t actual = type == RW_TYPE_DEFAULT ? *allowed.begin() : type;
     if (std::find(allowed.begin(), allowed.end(), actual) == allowed.end()) {
         throw bad_argument(name + ": type " + std::to_string(type) + " has no meaning here");
     }

@@ -19,11 +19,7 @@ void for_runs(std::size_t begin, std::size_t end, const Body& body) {
 
 RayWindow::RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel,
                      BatchProgress& progress)
-    : rays_(rays),
-      primitives_(primitives),
-      parallel_(parallel),
-      progress_(progress),
-      order_(parallel) {}
+    : rays_(rays), primitives_(primitives), parallel_(parallel), progress_(progress), order_(parallel) {}
 
 // Whether most rays are in the cell and octant of the one before: of every sixteenth run.
 bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {

@@ -60,8 +60,9 @@ struct LaneBounds {
     Vector zeros;
 
     HWY_INLINE LaneBounds()
-        : lower(hn::Set(Lanes(), std::numeric_limits<T>::infinity())), upper(hn::Neg(lower)), zeros(hn::Zero(Lanes())) {
-    }
+        : lower(hn::Set(Lanes(), std::numeric_limits<T>::infinity())),
+          upper(hn::Neg(lower)),
+          zeros(hn::Zero(Lanes())) {}
 
     HWY_INLINE void add(Vector numbers) {
         lower = hn::Min(lower, numbers);

@@ -59,8 +59,8 @@ enum class AreasAre {
 class Primitives {
 public:
     // The meshes are kept. Throws Error(ERROR_TOO_MANY) when all of them together exceed the ids.
-    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes,
-                        const Parallel& parallel = Parallel(1), AreasAre areas = AreasAre::settled_now);
+    explicit Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel = Parallel(1),
+                        AreasAre areas = AreasAre::settled_now);
 
     std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
@@ -71,8 +71,8 @@ public:
     bool are_areas_settled() const { return areas_.load(std::memory_order_acquire) != nullptr; }
 
     // Each settles the areas.
-    const Box& bounds() const { return areas().reach.bounds; }              // of all hittable primitives
-    double largest_extent() const { return areas().reach.largest_extent; } // none of them is longer along any axis
+    const Box& bounds() const { return areas().reach.bounds; }                  // of all hittable primitives
+    double largest_extent() const { return areas().reach.largest_extent; }      // none of them is longer along any axis
     std::uint64_t degenerate_count() const { return areas().degenerate_count; } // without area
 
     // None settles them. How many primitives can be hit, for planning: as long as areas are not settled those without area are counted as

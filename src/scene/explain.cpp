@@ -111,8 +111,7 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     json.open_object();
     json.put("triangles", tracer.primitives().count());
     const Primitives& primitives = tracer.primitives();
-    json.put("hittable_triangles",
-             primitives.count() - primitives.degenerate_count() - primitives.invalid_count());
+    json.put("hittable_triangles", primitives.count() - primitives.degenerate_count() - primitives.invalid_count());
     if (const char* const precision = precision_of(tracer.primitives())) {
         json.put("vertices", precision);
     } else {

@@ -124,9 +124,10 @@ std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, con
 
 void Scene::build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress) {
     PlanRequest request;
-    const bool wait = !before && effort_ == Effort::estimate && rule_ == Rule::smallest_total && areas_can_wait(workload_);
-    request.primitives = std::make_shared<const Primitives>(
-        meshes_, parallel, wait ? AreasAre::settled_on_demand : AreasAre::settled_now);
+    const bool wait =
+        !before && effort_ == Effort::estimate && rule_ == Rule::smallest_total && areas_can_wait(workload_);
+    request.primitives = std::make_shared<const Primitives>(meshes_, parallel,
+                                                            wait ? AreasAre::settled_on_demand : AreasAre::settled_now);
     request.profile = profile_;
     request.workload = workload_;
     request.sample = sample_;

@@ -86,7 +86,8 @@ void expect_bounds(std::size_t offset) {
             for (const T number : {T(-7), T(9)}) {
                 points[i] = number;
                 Box expected;
-                for (std::size_t k = 0; k < points.size(); k += 3) expected.extend({points[k], points[k + 1], points[k + 2]});
+                for (std::size_t k = 0; k < points.size(); k += 3)
+                    expected.extend({points[k], points[k + 1], points[k + 2]});
                 expected.extend(Vec3(2.0)); // what was there before stays
                 Box bounds;
                 bounds.extend(Vec3(2.0));

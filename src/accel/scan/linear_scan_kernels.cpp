@@ -29,6 +29,9 @@ constexpr std::uint32_t tile_triangles = tile_blocks * corner_block;
 // So many rays go through the triangles together: their numbers stay beside a tile.
 constexpr std::size_t rays_together = 32;
 
+// So many rays at a time are sooner done by outcodes than over blocks, where triangles share their vertices.
+constexpr std::size_t fewest_not_over_blocks = 6;
+
 CornerFrame corner_frame(const SceneFrame& frame) { return {frame.center(), frame.scale()}; }
 
 template <class Mask>
@@ -224,8 +227,8 @@ void scan_codes(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32
             remaining.clear();
             bool all_fit = true;
             for (std::uint32_t i = begin; i < begin + count; ++i) {
-                const std::uint32_t near = group.live & Codes::near(codes[index(i, 0)] & codes[index(i, 1)] &
-                                                                    codes[index(i, 2)]);
+                const std::uint32_t near =
+                    group.live & Codes::near(codes[index(i, 0)] & codes[index(i, 1)] & codes[index(i, 2)]);
                 if (HWY_LIKELY(near == 0)) continue;
                 all_fit = remaining.add(i, near);
                 if (!all_fit) break;
@@ -240,16 +243,8 @@ void scan_codes(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32
     });
 }
 
-// Fewer triangles are not worth it; and of vertices that belong to other meshes as well only so many are looked at for nothing.
-constexpr std::uint32_t fewest_for_codes = 256;
-constexpr std::uint64_t most_vertices_per_triangle = 3;
 // The rest of the memory is worth more to the caller.
 constexpr std::uint64_t most_code_bytes = std::uint64_t{64} << 20;
-
-bool suits_codes(const TriangleMesh& mesh) {
-    return mesh.invalid_count() == 0 && !mesh.vertex_bounds().empty() && mesh.triangle_count() >= fewest_for_codes &&
-           mesh.arrays().vertex_count <= most_vertices_per_triangle * mesh.triangle_count();
-}
 
 // The rays of a group, Codes::rays at most, through a mesh. Returns false, with nothing done, where there is no memory for it.
 template <class Codes, class Sink>
@@ -274,25 +269,39 @@ bool scan_mesh(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32_
     return true;
 }
 
+// The rays of a group through all meshes, by codes where that suits the mesh.
+template <class Codes, class Sink>
+void scan_meshes(const ScannedScene& scene, RayGroup<Sink>& group) {
+    std::uint32_t first = 0;   // of the mesh
+    std::uint32_t waiting = 0; // the primitives from here up to the mesh go through tiles, of several meshes at a time
+    for (const auto& mesh : scene.primitives.meshes()) {
+        const std::uint32_t end = first + mesh->triangle_count();
+        if (suits_outcodes(*mesh, Codes::rays) && scan_mesh<Codes>(scene, *mesh, first, group)) {
+            scan_tiles(scene, waiting, first, group);
+            waiting = end;
+        }
+        first = end;
+    }
+    scan_tiles(scene, waiting, first, group);
+}
+
 // All rays of a group through all triangles.
 template <class Sink>
 void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size_t count) {
     using Many = ManyRaysCode<16>;
-    if (scene.blocks != nullptr) {
+    if (scene.blocks != nullptr && (count < fewest_not_over_blocks || !suit_outcodes(scene.primitives))) {
         RayGroup<Sink> group{rays, sinks, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)};
         scan_tiles(scene, 0, scene.primitives.count(), group);
         return;
     }
+    const ScannedScene in_place{scene.primitives, scene.frame, nullptr};
     for (std::size_t begin = 0; begin < count; begin += Many::rays) {
         const std::size_t size = std::min(Many::rays, count - begin);
         RayGroup<Sink> group{rays + begin, sinks + begin, (std::uint32_t{1} << size) - 1};
-        std::uint32_t first = 0;
-        for (const auto& mesh : scene.primitives.meshes()) {
-            const std::uint32_t end = first + mesh->triangle_count();
-            const bool done = suits_codes(*mesh) && (size == 1 ? scan_mesh<OneRayCode>(scene, *mesh, first, group)
-                                                               : scan_mesh<Many>(scene, *mesh, first, group));
-            if (!done) scan_tiles(scene, first, end, group);
-            first = end;
+        if (size == 1) {
+            scan_meshes<OneRayCode>(in_place, group);
+        } else {
+            scan_meshes<Many>(in_place, group);
         }
     }
 }
@@ -313,7 +322,6 @@ struct Candidates {
 // Sets the rays up, those that may hit something, in groups.
 template <class Collector>
 void scan_in_groups(const ScannedScene& scene, const Ray* rays, std::size_t count, Collector* collectors) {
-    if (scene.primitives.hittable_count() == 0) return;
     std::optional<ExactRay> exact[rays_together];
     ScanRay group[rays_together];
     Candidates<Collector> candidates[rays_together];
@@ -348,23 +356,65 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace raywise {
+namespace {
+
+// Fewer triangles are not worth it.
+constexpr std::uint32_t fewest_for_outcodes = 256;
+
+} // namespace
+
+bool suits_outcodes(const TriangleMesh& mesh, std::size_t rays) {
+    if (mesh.invalid_count() > 0 || mesh.vertex_bounds().empty() || mesh.triangle_count() < fewest_for_outcodes)
+        return false;
+    const std::uint64_t triangles = mesh.triangle_count();
+    return mesh.arrays().vertex_count <= (rays == 1 ? 3 * triangles : triangles + triangles / 2);
+}
+
+bool suit_outcodes(const Primitives& primitives) {
+    const auto suits = [](const auto& mesh) { return suits_outcodes(*mesh, 2); };
+    return std::all_of(primitives.meshes().begin(), primitives.meshes().end(), suits);
+}
 
 HWY_EXPORT(gather_kernel);
 HWY_EXPORT(scan_closest_kernel);
 HWY_EXPORT(scan_any_kernel);
 HWY_EXPORT(scan_all_kernel);
 
+namespace {
+
+// Where there are so few triangles that setting a ray up for the filter takes longer than asking the exact test about each.
+template <class Collector>
+void test_all(const ScannedScene& scene, const Ray* rays, std::size_t count, Collector* collectors) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!rays[i].is_traceable()) continue;
+        const ExactRay ray(rays[i]);
+        PrimitiveHit hit;
+        for (std::uint32_t primitive = 0; primitive < scene.primitives.count(); ++primitive) {
+            if (scene.primitives.test(ray, primitive, hit) && collectors[i].collect(hit)) break;
+        }
+    }
+}
+
+bool is_tiny(const ScannedScene& scene) {
+    return scene.blocks == nullptr && scene.primitives.count() <= most_tested_singly;
+}
+
+} // namespace
+
 void gather_blocks(const Primitives& primitives, const SceneFrame& frame, std::uint32_t first, std::uint32_t end,
                    float* blocks) {
     HWY_DYNAMIC_DISPATCH(gather_kernel)(primitives, frame, first, end, blocks);
 }
 void scan_closest(const ScannedScene& scene, const Ray* rays, std::size_t count, ClosestCollector* collectors) {
+    if (is_tiny(scene)) return test_all(scene, rays, count, collectors);
     HWY_DYNAMIC_DISPATCH(scan_closest_kernel)(scene, rays, count, collectors);
 }
 void scan_any(const ScannedScene& scene, const Ray* rays, std::size_t count, AnyCollector* collectors) {
+    if (is_tiny(scene)) return test_all(scene, rays, count, collectors);
     HWY_DYNAMIC_DISPATCH(scan_any_kernel)(scene, rays, count, collectors);
 }
 void scan_all(const ScannedScene& scene, const Ray& ray, AllCollector& collector) {
+    if (is_tiny(scene)) return test_all(scene, &ray, 1, &collector);
     HWY_DYNAMIC_DISPATCH(scan_all_kernel)(scene, ray, collector);
 }
 

@@ -23,8 +23,7 @@ struct OutcodeRay {
     OutcodeRay() = default; // no ray
 
     // scale: from the vertices' numbers to the ray's frame, a power of two.
-    OutcodeRay(const ScanRay& ray, float scale)
-        : offset_x(ray.offset_x), offset_y(ray.offset_y) {
+    OutcodeRay(const ScanRay& ray, float scale) : offset_x(ray.offset_x), offset_y(ray.offset_y) {
         x[ray.x_axis] = scale;
         y[ray.y_axis] = scale;
         x[ray.z_axis] = -ray.shear_x * scale;

@@ -34,7 +34,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct PackedVertices {
     const std::byte* data;
 
-    HWY_INLINE void read(std::uint64_t vertex, float* p) const { std::memcpy(p, data + 12 * vertex, 12); }
+    HWY_INLINE void read(std::uint64_t vertex, float* p) const {
+        for (std::uint64_t axis = 0; axis < 3; ++axis) std::memcpy(p + axis, data + 12 * vertex + 4 * axis, 4);
+    }
 };
 
 template <class Coordinate>
