@@ -33,7 +33,7 @@ LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) 
     if (primitives_.hittable_count() == 0) return;
     const bool is_tiny = primitives_.count() <= most_tested_singly;
     if (is_tiny && input.few_rays) return;
-    frame_ = is_tiny ? frame_of_bounds(primitives_.outer_bounds()) : scene_frame(primitives_);
+    frame_ = is_tiny ? frame_of_bounds(primitives_.outer_bounds()) : scene_frame(primitives_, short_sample);
     if (input.few_rays) return;
     if (primitives_.count() > most_gathered_beside_outcodes && suit_outcodes(primitives_)) return;
     const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
