@@ -8,9 +8,7 @@
 namespace raywise {
 namespace {
 
-constexpr std::uint32_t most_sampled = 256;
-
-std::vector<Box> sampled_boxes(const Primitives& primitives) {
+std::vector<Box> sampled_boxes(const Primitives& primitives, std::uint32_t most_sampled) {
     std::vector<Box> boxes;
     const std::uint32_t count = primitives.count();
     const std::uint32_t sampled = std::min(count, most_sampled);
@@ -44,15 +42,16 @@ double at_rank(std::vector<double>& values, std::size_t rank) {
 
 } // namespace
 
-DenseRegion dense_region(const Primitives& primitives) {
-    const std::vector<Box> boxes = sampled_boxes(primitives);
+DenseRegion dense_region(const Primitives& primitives, std::uint32_t most_sampled) {
+    const std::vector<Box> boxes = sampled_boxes(primitives, most_sampled);
     DenseRegion region;
     if (boxes.empty()) {
-        if (primitives.bounds().empty()) return region;
-        region.center = primitives.bounds().center();
-        region.radius = max_component(primitives.bounds().size());
-        region.most = primitives.bounds();
-        region.extent = primitives.largest_extent();
+        const Box bounds = primitives.outer_bounds();
+        if (bounds.empty()) return region;
+        region.center = bounds.center();
+        region.radius = max_component(bounds.size());
+        region.most = bounds;
+        region.extent = region.radius;
         return region;
     }
     const std::size_t n = boxes.size();
@@ -66,7 +65,7 @@ DenseRegion dense_region(const Primitives& primitives) {
     }
     for (std::size_t i = 0; i < n; ++i) values[i] = max_component(boxes[i].size());
     region.extent = at_rank(values, n / 2);
-    region.most = box_of_most(boxes, region, primitives.bounds());
+    region.most = box_of_most(boxes, region, primitives.outer_bounds());
     return region;
 }
 
@@ -80,17 +79,19 @@ double SceneExtent::near_distance(const Vec3& point) const {
 
 SceneExtent scene_extent(const Primitives& primitives) {
     SceneExtent extent{primitives.bounds(), primitives.largest_extent(), {}};
-    for (const Box& box : sampled_boxes(primitives)) extent.middles.push_back(box.center());
+    for (const Box& box : sampled_boxes(primitives, usual_sample)) extent.middles.push_back(box.center());
     return extent;
 }
 
-SceneFrame scene_frame(const Primitives& primitives) { return scene_frame(primitives, dense_region(primitives)); }
+SceneFrame scene_frame(const Primitives& primitives, std::uint32_t most_sampled) {
+    return scene_frame(primitives, dense_region(primitives, most_sampled));
+}
 
 SceneFrame scene_frame(const Primitives& primitives, const DenseRegion& dense) {
     const Vec3 center = SceneFrame::choose_center(dense.center, dense.radius);
     // Where the center is not the median, most triangles lie within this of it.
     const double radius = dense.radius + max_component(magnitudes(dense.center - center));
-    return {center, radius, primitives.bounds()};
+    return {center, radius, primitives.outer_bounds()};
 }
 
 } // namespace raywise
