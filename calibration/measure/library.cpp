@@ -1,9 +1,11 @@
 #include "measure/library.h"
 
 #include "base/structure.h"
+#include "model/cost_units.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace raywise::calibration {
@@ -52,6 +54,19 @@ rw_triangles triangles_of(const workloads::Mesh& mesh) {
     triangles.indices.data = mesh.indices.data();
     triangles.indices.type = RW_UINT32;
     return triangles;
+}
+
+// What a grid is made like depends on how many rays are coming (accel/grid/grid_choice.h). Where many are, it loses to trees in any case; so
+// what is measured is the form for few of them.
+void expect_rays_of(rw_scene* scene, const char* structure, std::uint64_t triangles) {
+    constexpr std::uint64_t triangles_per_ray = 64;
+    for (const Structure each : all_structures()) {
+        if (!shrinks(each) || std::strcmp(structure, name_of(each)) != 0) continue;
+        rw_expected_rays expected = sized<rw_expected_rays>();
+        expected.kind = RW_RAYS_ANY_KIND;
+        expected.count = std::max<std::uint64_t>(triangles / triangles_per_ray, 8);
+        check(rw_scene_set_expected_rays(scene, &expected), "rw_scene_set_expected_rays");
+    }
 }
 
 SceneFeatures features_of(const rw_scene* scene) {
@@ -136,6 +151,7 @@ BuiltScene::BuiltScene(const workloads::Mesh& mesh, const char* structure, const
     const rw_triangles triangles = triangles_of(mesh);
     check(rw_scene_add_triangles(scene, &triangles, nullptr), "rw_scene_add_triangles");
     check(rw_scene_set_structure(scene, structure), "rw_scene_set_structure");
+    expect_rays_of(scene, structure, mesh.triangle_count());
     rw_commit_options options = sized<rw_commit_options>();
     options.threads = threads;
     check(rw_scene_commit(scene, &options), "rw_scene_commit");

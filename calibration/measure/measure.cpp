@@ -74,8 +74,11 @@ private:
         }
     }
 
+    // As seen by a scene that expects any number of rays.
+    const SceneFeatures& features() const { return scenes_[Structure::bvh]->features(); }
+
     void note_build(Structure structure, const Timing& timing, const Built& built) {
-        result_.measurements.builds.push_back({structure, built.features(), timing.ns, built.bytes()});
+        result_.measurements.builds.push_back({structure, features(), timing.ns, built.bytes()});
         note_spread(timing);
     }
 
@@ -164,7 +167,7 @@ private:
         for (const Structure structure : all_structures()) {
             const std::size_t i = static_cast<std::size_t>(structure);
             result_.measurements.rays.push_back(
-                {structure, kind, asked(structure, kind).features(), timings[i].ns / counts[i]});
+                {structure, kind, features(), timings[i].ns / counts[i]});
             note_spread(timings[i]);
         }
     }
