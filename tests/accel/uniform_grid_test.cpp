@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -134,6 +135,20 @@ TEST(UniformGrid, LimitsItsReferences) {
     World world(random_soup(20000, 2.0, 33));
     const UniformGrid grid(world.input());
     EXPECT_LE(grid.statistics().references, 24u * 20000u + 65536u);
+}
+
+TEST_P(UniformGridOn, AnswersAsTheLinearScanAtForcedResolutions) {
+    World world(GetParam().make());
+    if (world.primitives().hittable_count() == 0 || world.soup().size() > 800) return;
+    constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
+    for (const std::array<std::uint32_t, 3>& resolution :
+         {std::array<std::uint32_t, 3>{1, 1, 1}, {0, 0, 7}, {1, largest, 1}, {300, 2, 300}}) {
+        GridOptions options;
+        options.resolution = resolution;
+        const UniformGrid grid(world.input(), options);
+        EXPECT_LE(grid.lattice().cell_count(), std::uint64_t{1} << 24);
+        expect_scan_answers(world, grid, 108);
+    }
 }
 
 // Few rays: half a cell per primitive; many: one cell, and the corners in the cells; a memory limit takes the corners away, then cells.

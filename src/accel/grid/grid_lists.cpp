@@ -42,6 +42,18 @@ bool build_lists(const BuildInput& input, const CellLattice& lattice, const Grid
     return true;
 }
 
+std::array<std::uint32_t, 3> possible_resolution(const Vec3& size, std::array<std::uint32_t, 3> wanted) {
+    double cells = 1.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool is_flat = !(size[static_cast<glm::length_t>(axis)] > 0x1p-900);
+        const auto most =
+            static_cast<std::uint32_t>(std::min(CellLattice::max_cells_along_axis, CellLattice::max_cells / cells));
+        wanted[axis] = is_flat ? 1 : std::clamp(wanted[axis], 1u, most);
+        cells *= wanted[axis];
+    }
+    return wanted;
+}
+
 } // namespace
 
 CellLattice build_limited_lists(const BuildInput& input, const GridOptions& options, const ProgressPart& progress,
@@ -49,10 +61,17 @@ CellLattice build_limited_lists(const BuildInput& input, const GridOptions& opti
     const Box& bounds = input.primitives.bounds();
     const std::uint64_t hittable = input.primitives.hittable_count();
     double cells = options.density.value_or(density_for_many_rays) * static_cast<double>(hittable);
-    for (;; cells /= 4.0) { // with one cell everything fits
-        const CellLattice lattice(bounds, grid_resolution(bounds.size(), cells, 1.0));
+    std::array<std::uint32_t, 3> resolution = grid_resolution(bounds.size(), cells, 1.0);
+    if (options.resolution) {
+        resolution = possible_resolution(bounds.size(), *options.resolution);
+        cells = static_cast<double>(resolution[0]) * resolution[1] * resolution[2];
+    }
+    for (;;) { // with one cell everything fits
+        const CellLattice lattice(bounds, resolution);
         const std::uint64_t most = lattice.cell_count() == 1 ? hittable : max_grid_references(hittable);
         if (build_lists(input, lattice, options, most, progress, lists)) return lattice;
+        cells /= 4.0;
+        resolution = grid_resolution(bounds.size(), cells, 1.0);
     }
 }
 

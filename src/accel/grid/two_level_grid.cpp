@@ -16,8 +16,10 @@ namespace {
 constexpr std::uint64_t bricks_per_task = 16;
 constexpr std::uint32_t references_per_block = 1u << 13;
 
-// A primitive that is longer than so many coarse cells along some axis is large.
-constexpr double large_in_cells = 2.0;
+// A primitive that is so much longer than the cell's median primitive is large.
+constexpr double large_in_medians = 16.0;
+// Large ones stay in the cell where the others' bounds then have less than so much of the surface.
+constexpr double least_gain = 0.5;
 // An inner grid in which primitives would be listed more often than that each gets fewer cells.
 constexpr double most_repeats = 6.0;
 // Numbers of cells of all inner grids.
@@ -94,11 +96,12 @@ private:
     void split(std::uint64_t task, std::uint64_t first, std::uint64_t end) {
         SplitPart& part = parts_[task];
         std::vector<Box> boxes;
+        std::vector<double> lengths;
         for (std::uint64_t cell = first; cell < end; ++cell) {
             const std::uint32_t count = lists_.count(cell);
             if (count == 0) continue;
             const std::uint32_t* const list = lists_.references.data() + lists_.offset(cell);
-            if (count <= options_.most_in_a_cell || !split_cell(cell, list, count, boxes, part)) {
+            if (count <= options_.most_in_a_cell || !split_cell(cell, list, count, boxes, lengths, part)) {
                 part.own.insert(part.own.end(), list, list + count);
                 own_counts_[cell] = count;
             }
@@ -107,36 +110,46 @@ private:
 
     // Returns false where the cell keeps all.
     bool split_cell(std::uint64_t cell, const std::uint32_t* list, std::uint32_t count, std::vector<Box>& boxes,
-                    SplitPart& part) {
+                    std::vector<double>& lengths, SplitPart& part) {
         boxes.clear();
-        std::uint32_t large = 0;
+        lengths.clear();
         for (std::uint32_t i = 0; i < count; ++i) {
             boxes.push_back(primitives_.box(list[i]));
-            large += is_large(boxes.back()) ? 1 : 0;
+            lengths.push_back(max_component(boxes.back().size()));
         }
-        const bool set_apart = large <= options_.most_large_apart;
-        const std::uint32_t rest = set_apart ? count - large : count;
-        if (rest <= options_.most_in_a_cell) return false;
-        InnerCell inner{static_cast<std::uint32_t>(cell), rest, {}};
+        const double large = large_length(lengths);
+        InnerCell all{static_cast<std::uint32_t>(cell), 0, {}};
+        InnerCell small = all;
+        for (const Box& box : boxes) {
+            add(all, box);
+            if (max_component(box.size()) <= large) add(small, box);
+        }
+        clip_to_cell(all);
+        clip_to_cell(small);
+        const bool set_apart = all.count - small.count <= options_.most_large_apart &&
+                               small.bounds.half_area() < least_gain * all.bounds.half_area();
+        const InnerCell& inner = set_apart ? small : all;
+        if (inner.count <= options_.most_in_a_cell) return false;
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (set_apart && is_large(boxes[i])) {
-                part.own.push_back(list[i]);
-                ++own_counts_[cell];
-                continue;
-            }
-            part.inner.push_back(list[i]);
-            inner.bounds.extend(boxes[i]);
-            inner.sizes += boxes[i].size();
+            const bool is_own = set_apart && max_component(boxes[i].size()) > large;
+            (is_own ? part.own : part.inner).push_back(list[i]);
+            own_counts_[cell] += is_own ? 1 : 0;
         }
-        clip_to_cell(inner);
         part.cells.push_back(inner);
         return true;
     }
 
-    bool is_large(const Box& box) const {
-        const Vec3 size = box.size();
-        return size.x > large_in_cells * coarse_.width.x || size.y > large_in_cells * coarse_.width.y ||
-               size.z > large_in_cells * coarse_.width.z;
+    // What is longer is large.
+    static double large_length(std::vector<double>& lengths) {
+        const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), median, lengths.end());
+        return large_in_medians * *median;
+    }
+
+    static void add(InnerCell& cell, const Box& box) {
+        cell.bounds.extend(box);
+        cell.sizes += box.size();
+        ++cell.count;
     }
 
     void clip_to_cell(InnerCell& inner) const {

@@ -2,7 +2,7 @@
 // Voxel Subdivision for Ray Tracing"; all cells of all those in one array, as Kalojanov, Billeter and Slusallek 2011, "Two-Level Grids for
 // Ray Tracing on GPUs", have them). For the teapot in a stadium: where all detail is in a few cells of the coarse grid.
 //
-// A cell's grid lies over what of the cell its primitives reach. Few that are large against the cell stay out of it and are listed in the
+// A cell's grid lies over what of the cell its primitives reach. Few that are large against the others stay out of it and are listed in the
 // cell itself: the ground that a small thing stands on must not decide about the cells of the thing.
 //
 // Why no hit is lost. At one moment of the coarse walk the ray is in a cell that holds the hit's point P but for less than
@@ -25,10 +25,10 @@
 namespace raywise {
 
 struct TwoLevelOptions {
-    double coarse_density = 1.0 / 16.0;  // cells per primitive
+    double coarse_density = 0.25;        // cells per primitive
     double density = 1.0;                // of the cells' own grids, per reference
-    std::uint32_t most_in_a_cell = 24;   // more references have a grid of their own
-    std::uint32_t most_large_apart = 12; // more primitives that are large against the cell are no exception
+    std::uint32_t most_in_a_cell = 16;   // more references have a grid of their own
+    std::uint32_t most_large_apart = 64; // more primitives that are large against the cell's others are no exception
 };
 
 // A grid within a coarse cell.

@@ -22,9 +22,11 @@ public:
         if (!file_) throw std::runtime_error(path + " cannot be read");
     }
 
-    Mesh read() {
+    Mesh read(std::vector<std::uint32_t>* primitive_of) {
         std::string line;
+        std::uint32_t primitives = 0;
         while (next(line)) {
+            const std::uint64_t before = mesh_.triangle_count();
             std::istringstream words(line);
             std::string word;
             words >> word;
@@ -45,6 +47,8 @@ public:
             else if (word != "b" && word != "v" && word != "up" && word != "hither" && word != "resolution" &&
                      word != "f")
                 fail("'" + word + "' is not known");
+            if (primitive_of == nullptr || mesh_.triangle_count() == before) continue;
+            primitive_of->resize(mesh_.triangle_count(), primitives++);
         }
         mesh_.camera = camera_;
         return std::move(mesh_);
@@ -137,6 +141,8 @@ private:
 
 } // namespace
 
-Mesh load_nff(const std::string& path) { return Reader(path).read(); }
+Mesh load_nff(const std::string& path, std::vector<std::uint32_t>* primitive_of) {
+    return Reader(path).read(primitive_of);
+}
 
 } // namespace raywise::bench

@@ -4,11 +4,14 @@
 
 #include "scenes/scenes.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace raywise::bench {
 
 // With the file's eye and its first light. Throws std::runtime_error that names the line when it cannot be read.
-workloads::Mesh load_nff(const std::string& path);
+// primitive_of: receives the number of each triangle's primitive in the file.
+workloads::Mesh load_nff(const std::string& path, std::vector<std::uint32_t>* primitive_of = nullptr);
 
 } // namespace raywise::bench
