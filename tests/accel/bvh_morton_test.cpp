@@ -148,7 +148,7 @@ TEST(BvhMorton, LargeTrianglesAreApartFromSmallOnes) {
             EXPECT_TRUE(large == 0 || large == node.child[i].triangles());
         }
     }
-    expect_sound_build(triangles, 23, 60);
+    expect_sound_build(triangles, 23);
 }
 
 // Two heaps of triangles, each within one cell of the grid over both, and each too large for one thread.

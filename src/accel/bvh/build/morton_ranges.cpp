@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::uint64_t chunk_size = 16384; // primitives between two reports
 
-// Radix sort counts some thousand digits, however few keys there are.
-constexpr std::uint32_t fewest_to_radix_sort = 128;
-
 } // namespace
 
 MortonRanges::MortonRanges(const BuildInput& input, const SceneFrame& frame, const DenseRegion& dense,
@@ -78,14 +75,9 @@ bool MortonRanges::refine(std::uint32_t begin, std::uint32_t end) {
                             report_(0);
                         });
     if (!write_codes(middles.data(), count, keys)) return false;
-    if (count < fewest_to_radix_sort) {
-        const auto number = [](const MortonKey& key) { return std::uint64_t{key.code} << 32 | key.index; };
-        std::sort(keys, keys + count, [&](const MortonKey& a, const MortonKey& b) { return number(a) < number(b); });
-    } else {
-        MortonKey* const other = other_.data() + begin;
-        std::copy(keys, keys + count, other);
-        radix_sort(other, keys, count, parallel);
-    }
+    MortonKey* const other = other_.data() + begin;
+    std::copy(keys, keys + count, other);
+    radix_sort(other, keys, count, parallel);
     return true;
 }
 

@@ -45,6 +45,15 @@ void scatter(const MortonKey* keys, std::uint32_t count, MortonKey* other, const
     for (std::uint32_t i = 0; i < count; ++i) other[next[digits.of(keys[i], pass)]++] = keys[i];
 }
 
+// Counting goes through some thousand digits, however few keys there are.
+constexpr std::uint32_t fewest_to_count = 128;
+
+void sort_few(const MortonKey* keys, MortonKey* other, std::uint32_t count) {
+    const auto number = [](const MortonKey& key) { return std::uint64_t{key.code} << 32 | key.index; };
+    std::copy(keys, keys + count, other);
+    std::sort(other, other + count, [&](const MortonKey& a, const MortonKey& b) { return number(a) < number(b); });
+}
+
 // The digits of all passes are counted at once: their numbers do not depend on the order.
 void sort_alone(MortonKey* keys, MortonKey* other, std::uint32_t count) {
     const Digits digits(all_bits(keys, count));
@@ -102,7 +111,9 @@ void sort_by_blocks(MortonKey* keys, MortonKey* other, std::uint32_t count, cons
 } // namespace
 
 void radix_sort(MortonKey* keys, MortonKey* other, std::uint32_t count, const Parallel& parallel) {
-    if (count <= radix_sort_block || parallel.threads() == 1) {
+    if (count < fewest_to_count) {
+        sort_few(keys, other, count);
+    } else if (count <= radix_sort_block || parallel.threads() == 1) {
         sort_alone(keys, other, count);
     } else {
         sort_by_blocks(keys, other, count, parallel);

@@ -11,7 +11,7 @@ namespace raywise {
 // Keys a thread sorts on its own.
 inline constexpr std::uint32_t radix_sort_block = 65536;
 
-// Least significant digit first, stable. The sorted keys are in `other`.
+// Least significant digit first. The sorted keys are in `other`. Those of one code have to be in the order of their indices, and stay so.
 void radix_sort(MortonKey* keys, MortonKey* other, std::uint32_t count, const Parallel& parallel);
 
 } // namespace raywise
