@@ -59,7 +59,7 @@ expect 0 show
 printed "generic constants"
 narrow
 expect 0 show --json
-printed "raywise-profile/1"
+printed "raywise-profile/2"
 expect 1 check
 printed "no valid profile"
 expect 1 check "$FOLDER/missing.json"
