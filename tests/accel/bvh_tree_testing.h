@@ -85,7 +85,7 @@ inline void expect_valid_tree(const BvhTree& tree, const Primitives& primitives,
     std::vector<int> uses(tree.references.size(), 0);
     EXPECT_TRUE(is_well_formed(tree, tree.root, uses));
     EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](int n) { return n == 1; }));
-    std::vector<std::uint32_t> sorted = tree.references;
+    auto sorted = tree.references;
     std::sort(sorted.begin(), sorted.end());
     EXPECT_TRUE(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
 
