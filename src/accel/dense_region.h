@@ -18,9 +18,8 @@ struct DenseRegion {
     double extent = 0.0;
 };
 
-// Of so many of the primitives, or fewer, those that can be hit. Each takes fetches from memory that nothing else has asked for yet.
-inline constexpr std::uint32_t usual_sample = 256; // some microseconds, 40 where nothing is in the caches
-inline constexpr std::uint32_t short_sample = 48;  // for whoever is done in less
+// Of a sample of so many of the primitives, those that can be hit; some microseconds, 40 where none of them is in a cache.
+inline constexpr std::uint32_t usual_sample = 256;
 DenseRegion dense_region(const Primitives& primitives, std::uint32_t most_sampled = usual_sample);
 
 // How far a scene reaches, and where some of it is.
