@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -47,18 +49,93 @@ HWY_INLINE bool all_right(D d, const std::byte* numbers, std::uint64_t count, co
     return true;
 }
 
+// What is known of one axis' numbers, or of several's in turn: of each lane.
 template <class T>
-HWY_INLINE bool within_float32(const std::byte* numbers, std::uint64_t count) {
-    constexpr T limit = std::numeric_limits<float>::max();
-    const hn::ScalableTag<T> d;
-    const auto most = hn::Set(d, limit);
-    return all_right(
-        d, numbers, count, [&](auto v) HWY_ATTR { return hn::Not(hn::Le(hn::Abs(v), most)); }, // a NaN too
-        [](T number) { return number >= -limit && number <= limit; });
+struct LaneBounds {
+    using Lanes = hn::ScalableTag<T>;
+    using Vector = hn::Vec<Lanes>;
+
+    Vector lower;
+    Vector upper;
+    Vector zeros;
+
+    HWY_INLINE LaneBounds()
+        : lower(hn::Set(Lanes(), std::numeric_limits<T>::infinity())),
+          upper(hn::Neg(lower)),
+          zeros(hn::Zero(Lanes())) {}
+
+    HWY_INLINE void add(Vector numbers) {
+        lower = hn::Min(lower, numbers);
+        upper = hn::Max(upper, numbers);
+        zeros = hn::MulAdd(numbers, hn::Zero(Lanes()), zeros); // a NaN from NaN and infinities, and it stays one
+    }
+
+    // first: the axis of the first lane, of which the others follow in turn. Returns whether all numbers were finite.
+    HWY_INLINE bool finish(std::size_t first, Box& box) const {
+        const Lanes d;
+        HWY_ALIGN T lowest[hn::MaxLanes(Lanes())];
+        HWY_ALIGN T highest[hn::MaxLanes(Lanes())];
+        hn::Store(lower, d, lowest);
+        hn::Store(upper, d, highest);
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+            const auto axis = static_cast<glm::length_t>((first + i) % 3);
+            box.lower[axis] = std::min(box.lower[axis], static_cast<double>(lowest[i]));
+            box.upper[axis] = std::max(box.upper[axis], static_cast<double>(highest[i]));
+        }
+        return hn::AllTrue(d, hn::Eq(zeros, hn::Zero(d)));
+    }
+};
+
+// Numbers from `begin` up to `end`, one by one. Returns whether all were finite.
+template <class T>
+HWY_INLINE bool bound_singly(const std::byte* numbers, std::uint64_t begin, std::uint64_t end, Box& box) {
+    bool finite = true;
+    for (std::uint64_t i = begin; i < end; ++i) {
+        T number;
+        std::memcpy(&number, numbers + i * sizeof number, sizeof number);
+        const auto axis = static_cast<glm::length_t>(i % 3);
+        box.lower[axis] = std::min(box.lower[axis], static_cast<double>(number));
+        box.upper[axis] = std::max(box.upper[axis], static_cast<double>(number));
+        finite = finite && std::isfinite(number);
+    }
+    return finite;
 }
 
-bool within_float32_kernel(const std::byte* numbers, std::uint64_t count, bool float64) {
-    return float64 ? within_float32<double>(numbers, count) : within_float32<float>(numbers, count);
+// By whole registers from the first address on that suits them: each number is used three times, and the compiler would rather load it
+// three times, from two cache lines each. Three registers hold numbers of each axis in the same lanes again.
+template <class T>
+HWY_INLINE bool bound_points_of(const std::byte* points, std::uint64_t count, Box& bounds) {
+    const hn::ScalableTag<T> d;
+    const std::uint64_t lanes = hn::Lanes(d);
+    const std::uint64_t numbers = 3 * count;
+    const std::uint64_t past = reinterpret_cast<std::uintptr_t>(points) % (lanes * sizeof(T)) / sizeof(T);
+    const std::uint64_t first = std::min(numbers, (lanes - past) % lanes);
+    LaneBounds<T> a;
+    LaneBounds<T> b;
+    LaneBounds<T> c;
+    std::uint64_t i = first;
+    for (; i + 3 * lanes <= numbers; i += 3 * lanes) {
+        a.add(load(d, points, i));
+        b.add(load(d, points, i + lanes));
+        c.add(load(d, points, i + 2 * lanes));
+    }
+    Box box;
+    bool usable = bound_singly<T>(points, 0, first, box);
+    usable = bound_singly<T>(points, i, numbers, box) && usable;
+    if (i > first) {
+        usable = a.finish(first, box) && usable;
+        usable = b.finish(first + lanes, box) && usable;
+        usable = c.finish(first + 2 * lanes, box) && usable;
+    }
+    constexpr double most = std::numeric_limits<float>::max();
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        usable = usable && !(box.lower[axis] < -most) && !(box.upper[axis] > most);
+    if (usable) bounds.extend(box);
+    return usable;
+}
+
+bool bound_points_kernel(const std::byte* points, std::uint64_t count, bool float64, Box& bounds) {
+    return float64 ? bound_points_of<double>(points, count, bounds) : bound_points_of<float>(points, count, bounds);
 }
 
 bool below_kernel(const std::byte* indices, std::uint64_t count, std::uint32_t limit) {
@@ -77,11 +154,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace raywise {
 
-HWY_EXPORT(within_float32_kernel);
+HWY_EXPORT(bound_points_kernel);
 HWY_EXPORT(below_kernel);
 
-bool all_within_float32(const std::byte* numbers, std::uint64_t count, bool float64) {
-    return HWY_DYNAMIC_DISPATCH(within_float32_kernel)(numbers, count, float64);
+bool bound_points(const std::byte* points, std::uint64_t count, bool float64, Box& bounds) {
+    return HWY_DYNAMIC_DISPATCH(bound_points_kernel)(points, count, float64, bounds);
 }
 bool all_below(const std::byte* indices, std::uint64_t count, std::uint32_t limit) {
     return HWY_DYNAMIC_DISPATCH(below_kernel)(indices, count, limit);

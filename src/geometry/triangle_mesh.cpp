@@ -44,6 +44,9 @@ bool is_usable(const Vec3& p) {
     return std::fabs(p.x) <= limit && std::fabs(p.y) <= limit && std::fabs(p.z) <= limit; // false for NaN
 }
 
+// Fewer vertices are looked at one by one: less code to fetch for a mesh that nothing is done with often.
+constexpr std::uint64_t fewest_for_vectors = 64;
+
 // `count` elements of three components, one after the other.
 std::vector<std::byte> packed(const StridedArray& array, std::uint64_t count) {
     const std::size_t size = size_of(array.scalar);
@@ -129,12 +132,18 @@ void TriangleMesh::check(bool skip_invalid, const std::string& name) {
     }
 }
 
-bool TriangleMesh::vertices_are_usable() const {
+bool TriangleMesh::vertices_are_usable() {
     const StridedArray& vertices = arrays_.vertices;
-    if (vertices.is_packed())
-        return all_within_float32(vertices.data, 3 * arrays_.vertex_count, vertices.scalar == Scalar::float64);
+    if (vertices.is_packed() && arrays_.vertex_count >= fewest_for_vectors)
+        return bound_points(vertices.data, arrays_.vertex_count, vertices.scalar == Scalar::float64, vertex_bounds_);
+    Box bounds;
     bool usable = true;
-    for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) usable = is_usable(vertices.vec3(i)) && usable;
+    for (std::uint64_t i = 0; i < arrays_.vertex_count; ++i) {
+        const Vec3 p = vertices.vec3(i);
+        usable = is_usable(p) && usable;
+        bounds.extend(p);
+    }
+    if (usable) vertex_bounds_ = bounds;
     return usable;
 }
 

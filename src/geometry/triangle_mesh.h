@@ -1,6 +1,7 @@
 // One triangle mesh: strided arrays of the caller's, or packed copies of them, read as double precision corners.
 #pragma once
 
+#include "base/box.h"
 #include "base/vec.h"
 
 #include <array>
@@ -115,6 +116,9 @@ public:
     bool is_valid(std::uint32_t triangle) const { return invalid_.empty() || !invalid_[triangle]; }
     std::uint64_t invalid_count() const { return invalid_count_; }
 
+    // Of all vertices, whether or not a triangle has them; empty where one of them cannot be used.
+    const Box& vertex_bounds() const { return vertex_bounds_; }
+
     // Memory of the copies; that of indices is counted by each mesh that has them.
     std::size_t bytes() const {
         return vertex_copy_.size() + (index_copy_ ? index_copy_->size() : 0) + invalid_.size() / 8;
@@ -130,7 +134,7 @@ private:
                 arrays_.indices.index(triangle, 2)};
     }
     void check(bool skip_invalid, const std::string& name);
-    bool vertices_are_usable() const;
+    bool vertices_are_usable(); // and bounds them
     bool indices_are_in_range() const;
     void find_invalid();
     void make_copy();
@@ -141,6 +145,7 @@ private:
     std::shared_ptr<const std::vector<std::byte>> index_copy_; // one for all meshes that differ in their vertices alone
     std::vector<bool> invalid_;                                // empty when all are valid
     std::uint64_t invalid_count_ = 0;
+    Box vertex_bounds_;
 };
 
 } // namespace raywise

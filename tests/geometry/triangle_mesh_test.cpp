@@ -2,6 +2,7 @@
 #include "geometry/triangle_mesh.h"
 
 #include "base/error.h"
+#include "geometry/laid_out_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -210,6 +211,68 @@ TEST(TriangleMesh, IndicesThatWereInvalidStayInvalidWhenTheyAreKept) {
         EXPECT_FALSE(mesh.is_valid(1));
         EXPECT_TRUE(mesh.is_valid(2));
         EXPECT_THROW(TriangleMesh(before, arrays, copy, false), Error);
+    }
+}
+
+// Enough for whole registers and for what is left behind them; each place in turn.
+TEST(TriangleMesh, NamesWhatIsWrongAtAnyPlace) {
+    constexpr std::size_t vertex_count = 83;
+    std::vector<float> vertices(3 * vertex_count);
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = static_cast<float>(i % 7);
+    std::vector<std::uint32_t> indices(3 * 40);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        indices[i] = static_cast<std::uint32_t>(i * 5 % (vertex_count - 1));
+    TriangleArrays arrays;
+    arrays.vertices = {reinterpret_cast<const std::byte*>(vertices.data()), 12, 4, Scalar::float32};
+    arrays.vertex_count = vertex_count;
+    arrays.indices = {reinterpret_cast<const std::byte*>(indices.data()), 12, 4, Scalar::uint32};
+    arrays.triangle_count = indices.size() / 3;
+    ASSERT_NO_THROW(TriangleMesh(arrays, false, false));
+    for (std::size_t i = 0; i < vertices.size(); ++i) { // the last vertex is one that no triangle has
+        const float before = vertices[i];
+        const std::string name = "vertex " + std::to_string(i / 3) + ": coordinate " + "xyz"[i % 3];
+        vertices[i] = static_cast<float>(std::nan(""));
+        expect_error(arrays, Status::ERROR_NOT_FINITE, name + " is NaN");
+        vertices[i] = static_cast<float>(i % 2 == 0 ? infinity : -infinity);
+        expect_error(arrays, Status::ERROR_NOT_FINITE, name + " is infinite");
+        vertices[i] = before;
+    }
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint32_t before = indices[i];
+        for (const std::uint32_t wrong : {std::uint32_t{vertex_count}, 0xFFFFFFFFu}) {
+            indices[i] = wrong;
+            expect_error(arrays, Status::ERROR_INDEX_OUT_OF_RANGE,
+                         "triangle " + std::to_string(i / 3) + ": index " + std::to_string(wrong) +
+                             " is out of range, the mesh has 83 vertices");
+        }
+        indices[i] = before;
+    }
+    // The first of several is named.
+    vertices[30] = vertices[200] = static_cast<float>(infinity);
+    indices[0] = vertex_count;
+    expect_error(arrays, Status::ERROR_NOT_FINITE, "vertex 10: coordinate x");
+}
+
+TEST(TriangleMesh, BoundsAllItsVertices) {
+    for (const std::size_t count : {1, 4, 63, 64, 65, 200}) {
+        std::vector<Vec3> vertices;
+        Box expected;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto x = static_cast<double>(i * 37 % 101);
+            vertices.emplace_back(x - 50.0, 3.0 - x, static_cast<double>(i * 53 % 97));
+            expected.extend(vertices.back());
+        }
+        for (const Layout& layout : every_layout()) {
+            if (!layout.indexed) continue; // only what triangles have is in the arrays
+            const LaidOutMesh laid_out(vertices, {0, 0, 0}, layout);
+            const auto mesh = laid_out.shared();
+            EXPECT_EQ(mesh->vertex_bounds().lower, expected.lower) << layout.name << ", " << count;
+            EXPECT_EQ(mesh->vertex_bounds().upper, expected.upper) << layout.name << ", " << count;
+            vertices[count / 2].y = infinity;
+            const LaidOutMesh bad(vertices, {0, 0, 0}, layout);
+            EXPECT_TRUE(bad.shared(true)->vertex_bounds().empty()) << layout.name << ", " << count;
+            vertices[count / 2].y = 3.0 - static_cast<double>(count / 2 * 37 % 101);
+        }
     }
 }
 
