@@ -11,6 +11,10 @@ namespace {
 // triangles on an Intel Xeon with AVX-512 (family 6, model 207), 2026-11-26: docs/decisions/0012-linear-scan.md.
 constexpr std::uint64_t gathering_pays_from = 8;
 
+// For more rays something else than a linear scan is chosen anyway, on scenes that are not tiny; for that the number of triangles with area is
+// worth knowing before.
+constexpr std::uint64_t areas_matter_from = 256;
+
 // Scenes of fewer triangles are built on the caller's thread: that takes 0.1 ms (a kd_tree 3), and what could be shared of it is over
 // before another thread is awake.
 constexpr std::uint64_t fewest_for_build_threads = 1024;
@@ -24,11 +28,6 @@ constexpr std::uint64_t choice_holds_for = 2;
 // about twice the time of a ray, and 10^6 rays of 0.5 us each, twice as slow, take what building 10^6 triangles at 0.3 us and the
 // refit that was in vain do.
 constexpr double refit_limit_without_count = 2.0;
-
-// Each thread gets at least so many rays: waking one for fewer costs more. So twice as many are the first that are not answered on the
-// caller's thread alone. Random rays on the bunny (69,451 triangles): 256 take 25 us in a bvh and 60 in a kd_tree; 512 on two threads took no
-// longer than on one even where both processors had other work (AMD EPYC, family 26, model 2, 2026-12-01).
-constexpr std::uint64_t fewest_rays_of_thread = 256;
 
 // Several blocks for each thread balance uneven work: what the last thread is late by is a block at most.
 constexpr std::uint64_t blocks_per_thread = 8;
@@ -66,6 +65,8 @@ unsigned threads_for(std::uint64_t rays, std::uint64_t fewest, unsigned threads)
 
 bool worth_gathering(const Workload& workload) { return !workload.rays || *workload.rays >= gathering_pays_from; }
 
+bool areas_can_wait(const Workload& workload) { return workload.rays && *workload.rays < areas_matter_from; }
+
 bool worth_build_threads(std::uint64_t primitives) { return primitives >= fewest_for_build_threads; }
 
 bool choice_holds(std::uint64_t before, std::uint64_t now) {
@@ -78,14 +79,15 @@ double refit_limit(const Cost& predicted, const std::optional<std::uint64_t>& ra
     return 1.0 + predicted.build_ns / (static_cast<double>(*rays) * predicted.ray_ns);
 }
 
-unsigned batch_threads(std::uint64_t rays, unsigned threads) {
-    return threads_for(rays, fewest_rays_of_thread, threads);
+unsigned batch_threads(std::uint64_t rays, unsigned threads, std::uint64_t fewest) {
+    return threads_for(rays, fewest, threads);
 }
 
-std::uint64_t batch_block(std::uint64_t rays, unsigned threads, std::size_t at_a_time) {
+std::uint64_t batch_block(std::uint64_t rays, unsigned threads, std::size_t at_a_time, std::uint64_t fewest) {
     const std::uint64_t most = at_a_time > 1 ? at_a_time : single_rays_per_block;
+    if (threads == 1) fewest = fewest_rays_of_thread; // nobody to share with
     const std::uint64_t even = (rays + threads - 1) / threads;
-    return std::min(std::max(even / blocks_per_thread, fewest_rays_of_thread), most);
+    return std::min(std::max(even / blocks_per_thread, fewest), most);
 }
 
 std::uint64_t ordering_trial(std::uint64_t rays, std::size_t at_a_time) {

@@ -25,6 +25,13 @@ TEST(Policy, GathersFromEightRaysOnAndWhenTheirNumberIsNotKnown) {
     EXPECT_TRUE(worth_gathering({std::nullopt, RayKind::any}));
 }
 
+TEST(Policy, LetsAreasWaitWhereFewRaysAreSureToCome) {
+    EXPECT_TRUE(areas_can_wait({1, RayKind::any}));
+    EXPECT_TRUE(areas_can_wait({255, RayKind::any}));
+    EXPECT_FALSE(areas_can_wait({256, RayKind::any}));
+    EXPECT_FALSE(areas_can_wait({std::nullopt, RayKind::any}));
+}
+
 TEST(Policy, BuildsSmallScenesOnTheCallersThread) {
     EXPECT_FALSE(worth_build_threads(0));
     EXPECT_FALSE(worth_build_threads(1023));
@@ -65,6 +72,21 @@ TEST(Policy, WakesAThreadForEach256Rays) {
     EXPECT_EQ(batch_threads(512, 8), 2u);
     EXPECT_EQ(batch_threads(1'000'000, 8), 8u);
     EXPECT_EQ(batch_threads(1'000'000, 1), 1u);
+}
+
+TEST(Policy, WakesAThreadForFewerRaysThatTakeLong) {
+    EXPECT_EQ(batch_threads(31, 8, 16), 1u);
+    EXPECT_EQ(batch_threads(32, 8, 16), 2u);
+    EXPECT_EQ(batch_threads(50, 8, 16), 3u);
+    EXPECT_EQ(batch_threads(1000, 8, 16), 8u);
+    EXPECT_EQ(batch_block(50, 8, 64, 16), 16u);
+    EXPECT_EQ(batch_block(1000, 2, 64, 16), 62u);
+    EXPECT_EQ(batch_block(10'000, 2, 64, 16), 64u);
+    EXPECT_EQ(batch_block(50, 1, 64, 16), 64u) << "nobody to share with";
+    for (const unsigned threads : {1u, 2u, 5u, 128u}) {
+        for (const std::uint64_t rays : counts())
+            EXPECT_GE((rays - 1) / batch_block(rays, threads, 64, 16) + 1, batch_threads(rays, threads, 16)) << rays;
+    }
 }
 
 TEST(Policy, CutsABatchIntoABlockForEachThreadOrMore) {
