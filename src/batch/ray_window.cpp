@@ -19,12 +19,7 @@ void for_runs(std::size_t begin, std::size_t end, const Body& body) {
 
 RayWindow::RayWindow(const RayArrays& rays, const Primitives& primitives, const Parallel& parallel,
                      BatchProgress& progress)
-    : rays_(rays),
-      primitives_(primitives),
-      parallel_(parallel),
-      progress_(progress),
-      keys_(primitives.bounds()),
-      order_(parallel) {}
+    : rays_(rays), primitives_(primitives), parallel_(parallel), progress_(progress), order_(parallel) {}
 
 // Whether most rays are in the cell and octant of the one before: of every sixteenth run.
 bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
@@ -35,7 +30,7 @@ bool RayWindow::come_in_order(std::uint64_t first, std::size_t count) const {
     for (std::size_t begin = 0; begin < count; begin += 16 * together) {
         const std::size_t n = std::min(together, count - begin);
         rays_.read({first + begin, n}, rays);
-        keys_.of(rays, n, keys);
+        keys_->of(rays, n, keys);
         for (std::size_t k = 1; k < n; ++k) changes += RayKeys::is_near(keys[k], keys[k - 1]) ? 0 : 1;
         looked_at += n;
     }
@@ -51,7 +46,7 @@ void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
         for_runs(block_begin, block_end, [&](std::size_t begin, std::size_t n) {
             progress_.poll();
             rays_.read({first + begin, n}, rays);
-            keys_.of(rays, n, keys);
+            keys_->of(rays, n, keys);
             std::copy_n(keys, n, all_keys + begin);
             for (std::size_t k = 0; k < n; ++k) slots_[begin + k].put(rays[k]);
         });
@@ -60,6 +55,7 @@ void RayWindow::read_to_slots(std::uint64_t first, std::size_t count) {
 
 void RayWindow::move_to(std::uint64_t first, std::size_t count, bool in_order) {
     first_ = first;
+    if (in_order && !keys_) keys_.emplace(primitives_.bounds());
     has_slots_ = in_order && !come_in_order(first, count);
     if (!has_slots_) {
         elements_ = {first, count};

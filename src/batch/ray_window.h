@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <type_traits>
 
 namespace raywise {
@@ -64,7 +65,7 @@ private:
     const Primitives& primitives_;
     const Parallel& parallel_;
     BatchProgress& progress_;
-    const RayKeys keys_;
+    std::optional<RayKeys> keys_; // of a window in order
     RayOrder order_;
     PageArray<Slot> slots_; // in the order of the caller's arrays
     std::uint64_t first_ = 0;
