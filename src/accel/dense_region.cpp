@@ -8,9 +8,7 @@
 namespace raywise {
 namespace {
 
-constexpr std::uint32_t most_sampled = 256;
-
-std::vector<Vec3> sampled_middles(const Primitives& primitives) {
+std::vector<Vec3> sampled_middles(const Primitives& primitives, std::uint32_t most_sampled) {
     std::vector<Vec3> middles;
     const std::uint32_t count = primitives.count();
     const std::uint32_t sampled = std::min(count, most_sampled);
@@ -30,13 +28,14 @@ double at_rank(std::vector<double>& values, std::size_t rank) {
 
 } // namespace
 
-DenseRegion dense_region(const Primitives& primitives) {
-    const std::vector<Vec3> middles = sampled_middles(primitives);
+DenseRegion dense_region(const Primitives& primitives, std::uint32_t most_sampled) {
+    const std::vector<Vec3> middles = sampled_middles(primitives, most_sampled);
     DenseRegion region;
     if (middles.empty()) {
-        if (primitives.bounds().empty()) return region;
-        region.center = primitives.bounds().center();
-        region.radius = max_component(primitives.bounds().size());
+        const Box bounds = primitives.outer_bounds();
+        if (bounds.empty()) return region;
+        region.center = bounds.center();
+        region.radius = max_component(bounds.size());
         return region;
     }
     const std::size_t n = middles.size();
@@ -60,15 +59,15 @@ double SceneExtent::near_distance(const Vec3& point) const {
 }
 
 SceneExtent scene_extent(const Primitives& primitives) {
-    return {primitives.bounds(), primitives.largest_extent(), sampled_middles(primitives)};
+    return {primitives.bounds(), primitives.largest_extent(), sampled_middles(primitives, usual_sample)};
 }
 
-SceneFrame scene_frame(const Primitives& primitives) {
-    const DenseRegion dense = dense_region(primitives);
+SceneFrame scene_frame(const Primitives& primitives, std::uint32_t most_sampled) {
+    const DenseRegion dense = dense_region(primitives, most_sampled);
     const Vec3 center = SceneFrame::choose_center(dense.center, dense.radius);
     // Where the center is not the median, most triangles lie within this of it.
     const double radius = dense.radius + max_component(magnitudes(dense.center - center));
-    return {center, radius, primitives.bounds()};
+    return {center, radius, primitives.outer_bounds()};
 }
 
 } // namespace raywise

@@ -4,6 +4,7 @@
 #include "geometry/primitives.h"
 #include "ray/scene_frame.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace raywise {
@@ -14,8 +15,9 @@ struct DenseRegion {
     double radius = 0.0;
 };
 
-// Of a sample of the primitives that can be hit; some microseconds.
-DenseRegion dense_region(const Primitives& primitives);
+// Of a sample of so many of the primitives, those that can be hit; some microseconds, 40 where none of them is in a cache.
+inline constexpr std::uint32_t usual_sample = 256;
+DenseRegion dense_region(const Primitives& primitives, std::uint32_t most_sampled = usual_sample);
 
 // How far a scene reaches, and where some of it is.
 struct SceneExtent {
@@ -29,6 +31,6 @@ struct SceneExtent {
 SceneExtent scene_extent(const Primitives& primitives);
 
 // The frame of a scene in which something can be hit.
-SceneFrame scene_frame(const Primitives& primitives);
+SceneFrame scene_frame(const Primitives& primitives, std::uint32_t most_sampled = usual_sample);
 
 } // namespace raywise

@@ -10,6 +10,8 @@
 namespace raywise {
 
 std::unique_ptr<Accel> build(Structure structure, const BuildInput& input) {
+    // All others leave out what has no area, and ask how far the rest reaches.
+    if (structure != Structure::linear_scan) input.primitives.settle_areas(input.parallel);
     switch (structure) {
 #define RW_STRUCTURE(name, type) \
     case Structure::name:        \

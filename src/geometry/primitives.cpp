@@ -1,7 +1,6 @@
 #include "geometry/primitives.h"
 
 #include "base/error.h"
-#include "geometry/area_check.h"
 #include "geometry/exact.h"
 
 #include <algorithm>
@@ -27,27 +26,29 @@ Vec3 scaled_normal(const Corners& c) {
     return exact_normal(c[0], c[1], c[2]);
 }
 
+bool has_area(const Corners& corners) { return scaled_normal(corners) != Vec3(0.0); }
+
 // Fewer than this are not worth another thread.
 constexpr std::uint64_t triangles_per_task = 32768;
 
 // Returns the triangles that cannot be hit, and extends the reach by the others.
-std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel& parallel, Reach& reach) {
+std::vector<std::uint32_t> find_unhittable(const TriangleMesh& mesh, const Parallel& parallel, Reach& reach) {
     std::vector<std::uint32_t> unhittable;
     std::mutex mutex;
     const auto settle = [&](std::uint64_t begin, std::uint64_t end) {
         std::vector<std::uint32_t> doubtful;
         Reach here;
         check_areas(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), here, doubtful);
-        const auto has_area = [&](std::uint32_t i) {
+        const auto is_hittable = [&](std::uint32_t i) {
             if (!mesh.is_valid(i)) return false;
             const Corners c = mesh.corners(i);
-            if (scaled_normal(c) == Vec3(0.0)) return false;
+            if (!has_area(c)) return false;
             Box box;
             for (const Vec3& p : c) box.extend(p);
             here.extend({box, max_component(box.size())});
             return true;
         };
-        doubtful.erase(std::remove_if(doubtful.begin(), doubtful.end(), has_area), doubtful.end());
+        doubtful.erase(std::remove_if(doubtful.begin(), doubtful.end(), is_hittable), doubtful.end());
         const std::lock_guard lock(mutex);
         reach.extend(here);
         unhittable.insert(unhittable.end(), doubtful.begin(), doubtful.end());
@@ -62,9 +63,13 @@ std::vector<std::uint32_t> settle_areas(const TriangleMesh& mesh, const Parallel
 
 } // namespace
 
-Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel)
+const std::vector<bool> Primitives::not_settled;
+
+Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, const Parallel& parallel,
+                       AreasAre areas)
     : meshes_(std::move(meshes)) {
     std::uint64_t total = 0;
+    bool all_usable = true;
     first_.reserve(meshes_.size());
     for (const auto& mesh : meshes_) {
         if (total + mesh->triangle_count() >= PrimitiveHit::no_primitive) {
@@ -72,24 +77,53 @@ Primitives::Primitives(std::vector<std::shared_ptr<const TriangleMesh>> meshes, 
         }
         first_.push_back(static_cast<std::uint32_t>(total));
         total += mesh->triangle_count();
+        invalid_count_ += mesh->invalid_count();
+        all_usable = all_usable && (mesh->triangle_count() == 0 || !mesh->vertex_bounds().empty());
     }
     count_ = static_cast<std::uint32_t>(total);
+    if (areas == AreasAre::settled_now || invalid_count_ > 0 || !all_usable) settle_areas(parallel);
+}
 
+// Who settles them at the same time as another does so for nothing: a lock held over the parallel loop might be waited for by a task of it.
+const Areas& Primitives::settle_areas(const Parallel& parallel) const {
+    if (are_areas_settled()) return settled_;
+    Areas areas;
     std::vector<std::uint32_t> unhittable;
-    Reach reach;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
-        const TriangleMesh& mesh = *meshes_[m];
-        for (const std::uint32_t i : settle_areas(mesh, parallel, reach)) {
+        for (const std::uint32_t i : find_unhittable(*meshes_[m], parallel, areas.reach))
             unhittable.push_back(first_[m] + i);
-            ++(mesh.is_valid(i) ? degenerate_count_ : invalid_count_);
-        }
     }
-    bounds_ = reach.bounds;
-    largest_extent_ = reach.largest_extent;
-    hittable_count_ = count_ - degenerate_count_ - invalid_count_;
-    if (unhittable.empty()) return;
-    unhittable_.resize(count_, false);
-    for (const std::uint32_t i : unhittable) unhittable_[i] = true;
+    areas.degenerate_count = unhittable.size() - invalid_count_;
+    if (!unhittable.empty()) {
+        areas.unhittable.resize(count_, false);
+        for (const std::uint32_t i : unhittable) areas.unhittable[i] = true;
+    }
+    std::call_once(settled_once_, [&] {
+        settled_ = std::move(areas);
+        unhittable_.store(unhittable.empty() ? nullptr : &settled_.unhittable, std::memory_order_release);
+        areas_.store(&settled_, std::memory_order_release);
+    });
+    return settled_;
+}
+
+bool Primitives::is_hittable(const std::vector<bool>& unhittable, std::uint32_t primitive) const {
+    if (&unhittable != &not_settled) return !unhittable[primitive];
+    const PrimitiveId id = locate(primitive);
+    const TriangleMesh& mesh = *meshes_[id.geometry];
+    return mesh.is_valid(id.primitive) && has_area(mesh.corners(id.primitive));
+}
+
+std::uint64_t Primitives::hittable_count() const {
+    return count_ - invalid_count_ - (are_areas_settled() ? degenerate_count() : 0);
+}
+
+Box Primitives::outer_bounds() const {
+    if (are_areas_settled()) return bounds();
+    Box box;
+    for (const auto& mesh : meshes_) {
+        if (mesh->triangle_count() > 0) box.extend(mesh->vertex_bounds());
+    }
+    return box;
 }
 
 Vec3 unit_normal(const Corners& corners) {

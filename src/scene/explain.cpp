@@ -110,7 +110,8 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     JsonWriter json;
     json.open_object();
     json.put("triangles", tracer.primitives().count());
-    json.put("hittable_triangles", tracer.primitives().hittable_count());
+    const Primitives& primitives = tracer.primitives();
+    json.put("hittable_triangles", primitives.count() - primitives.degenerate_count() - primitives.invalid_count());
     if (const char* const precision = precision_of(tracer.primitives())) {
         json.put("vertices", precision);
     } else {

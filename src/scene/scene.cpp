@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "model/policy.h"
+
 #include <string>
 #include <utility>
 
@@ -68,6 +70,7 @@ std::shared_ptr<Scene> Scene::seen(std::shared_ptr<const Scene> scene, const Vie
 
     PlanRequest plan;
     plan.primitives = scene->tracer_->shared_primitives();
+    plan.primitives->settle_areas(parallel);
     plan.profile = scene->profile_;
     plan.workload = request.workload;
     plan.forced = request.forced;
@@ -114,13 +117,17 @@ std::shared_ptr<Scene> Scene::refitted(const std::vector<MovedMesh>& meshes, con
         scene->meshes_.push_back(
             std::make_shared<const TriangleMesh>(before, mesh.arrays, mesh.copy, mesh.skip_invalid, mesh.name));
     }
+    tracer_->primitives().settle_areas(parallel);
     scene->build(PlanBefore{plan_, tracer_->accel(), tracer_->primitives().hittable_count()}, parallel, progress);
     return scene;
 }
 
 void Scene::build(const std::optional<PlanBefore>& before, const Parallel& parallel, Progress& progress) {
     PlanRequest request;
-    request.primitives = std::make_shared<const Primitives>(meshes_, parallel);
+    const bool wait =
+        !before && effort_ == Effort::estimate && rule_ == Rule::smallest_total && areas_can_wait(workload_);
+    request.primitives = std::make_shared<const Primitives>(meshes_, parallel,
+                                                            wait ? AreasAre::settled_on_demand : AreasAre::settled_now);
     request.profile = profile_;
     request.workload = workload_;
     request.sample = sample_;

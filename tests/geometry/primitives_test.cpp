@@ -6,8 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <random>
+#include <thread>
+#include <vector>
 
 namespace raywise {
 namespace {
@@ -153,6 +157,81 @@ TEST(PrimitiveHit, IsOrderedByDistanceThenByNumber) {
     EXPECT_FALSE(near < low);
     EXPECT_TRUE(far < PrimitiveHit{}) << "anything comes before no hit";
     EXPECT_FALSE(PrimitiveHit{}.is_hit());
+}
+
+// ---- Areas that are settled on demand.
+
+std::unique_ptr<Primitives> on_demand(const Scene& scene) {
+    return std::make_unique<Primitives>(oracle::primitives_of(scene).meshes(), Parallel(1),
+                                        AreasAre::settled_on_demand);
+}
+
+TEST(Primitives, SettleTheSameAreasOnDemand) {
+    std::uint64_t degenerate = 0;
+    for (const Scene& scene : oracle::hard_scenes()) {
+        SCOPED_TRACE(scene.name);
+        const Primitives now = oracle::primitives_of(scene);
+        const auto later = on_demand(scene);
+        ASSERT_TRUE(now.are_areas_settled());
+        ASSERT_FALSE(later->are_areas_settled());
+        // What is told without them.
+        EXPECT_EQ(later->hittable_count(), now.count());
+        for (std::uint32_t i = 0; i < now.count(); ++i) ASSERT_EQ(later->is_hittable(i), now.is_hittable(i)) << i;
+        const Box outer = later->outer_bounds();
+        EXPECT_EQ(merge(outer, now.bounds()).lower, outer.lower);
+        EXPECT_EQ(merge(outer, now.bounds()).upper, outer.upper);
+        ASSERT_FALSE(later->are_areas_settled());
+        // Whichever is asked first settles them.
+        EXPECT_EQ(later->degenerate_count(), now.degenerate_count());
+        ASSERT_TRUE(later->are_areas_settled());
+        EXPECT_EQ(on_demand(scene)->largest_extent(), now.largest_extent());
+        EXPECT_EQ(on_demand(scene)->bounds().lower, now.bounds().lower);
+        EXPECT_EQ(on_demand(scene)->bounds().upper, now.bounds().upper);
+        EXPECT_EQ(later->hittable_count(), now.hittable_count());
+        EXPECT_EQ(later->outer_bounds().lower, now.bounds().lower);
+        for (std::uint32_t i = 0; i < now.count(); ++i) ASSERT_EQ(later->is_hittable(i), now.is_hittable(i)) << i;
+        degenerate += now.degenerate_count();
+    }
+    EXPECT_GT(degenerate, 10u);
+}
+
+TEST(Primitives, SettleAreasAtOnceWhereAVertexCannotBeUsed) {
+    const std::vector<double> vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, std::nan(""), 0, 0};
+    TriangleArrays arrays;
+    arrays.vertices = {reinterpret_cast<const std::byte*>(vertices.data()), 24, 8, Scalar::float64};
+    arrays.vertex_count = 4;
+    for (const std::uint32_t last : {2u, 3u, 9u}) { // which no triangle has, which one has, and one out of range
+        const std::vector<std::uint32_t> indices = {0, 1, last, 0, 1, 2};
+        arrays.indices = {reinterpret_cast<const std::byte*>(indices.data()), 12, 4, Scalar::uint32};
+        arrays.triangle_count = 2;
+        const Primitives primitives({std::make_shared<const TriangleMesh>(arrays, true, true)}, Parallel(1),
+                                    AreasAre::settled_on_demand);
+        EXPECT_TRUE(primitives.are_areas_settled()) << last;
+        EXPECT_EQ(primitives.hittable_count(), last == 2 ? 2u : 1u);
+        EXPECT_EQ(primitives.outer_bounds().upper, Vec3(1, 1, 0));
+    }
+}
+
+TEST(Primitives, SettleAreasForManyThreadsAtATime) {
+    const Scene scene = oracle::duplicates_and_degenerates();
+    const Primitives now = oracle::primitives_of(scene);
+    for (int repetition = 0; repetition < 50; ++repetition) {
+        const auto later = on_demand(scene);
+        std::atomic<int> wrong{0};
+        std::vector<std::thread> threads;
+        for (unsigned k = 0; k < 4; ++k) {
+            threads.emplace_back([&, k] {
+                for (std::uint32_t i = 0; i < now.count(); ++i) {
+                    const std::uint32_t primitive = (i + k * 7) % now.count();
+                    wrong += later->is_hittable(primitive) == now.is_hittable(primitive) ? 0 : 1;
+                    if (i == k) wrong += later->bounds().lower == now.bounds().lower ? 0 : 1;
+                }
+                wrong += later->degenerate_count() == now.degenerate_count() ? 0 : 1;
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+        ASSERT_EQ(wrong, 0);
+    }
 }
 
 } // namespace

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace raywise {
 namespace {
@@ -167,6 +169,72 @@ TEST(Scene, NamesMeshAndTriangleOfAHit) {
     }
     EXPECT_GT(from_each[0], 0);
     EXPECT_GT(from_each[1], 0);
+}
+
+// ---- Areas are not looked at before somebody needs them.
+
+std::shared_ptr<Scene> scene_for(const Soup& soup, std::optional<std::uint64_t> rays,
+                                 std::optional<Structure> structure = Structure::linear_scan) {
+    return make_scene(soup, generic(), [&](Scene& scene) {
+        scene.set_expected({rays, RayKind::any}, {});
+        scene.set_structure(structure);
+    });
+}
+
+Soup with_some_degenerate() {
+    Soup soup = make_soup(900, 3);
+    for (std::size_t triangle = 0; triangle < 900; triangle += 4)
+        std::copy_n(&soup.vertices[9 * triangle], 3, &soup.vertices[9 * triangle + 3]);
+    return soup;
+}
+
+bool are_areas_settled(const Scene& scene) { return scene.tracer().primitives().are_areas_settled(); }
+
+TEST(Scene, LeavesAreasAloneForFewRays) {
+    const Soup soup = with_some_degenerate();
+    EXPECT_TRUE(are_areas_settled(*scene_for(soup, std::nullopt)));
+    EXPECT_TRUE(are_areas_settled(*scene_for(soup, 256)));
+    for (const Structure structure : all_structures()) {
+        if (structure == Structure::linear_scan) continue;
+        EXPECT_TRUE(are_areas_settled(*scene_for(soup, 1, structure))) << name_of(structure);
+    }
+    const auto settled = scene_for(soup, std::nullopt);
+    for (const std::uint64_t rays : {1, 10, 255}) {
+        const auto scene = scene_for(soup, rays);
+        for (const Ray& ray : make_chords(100)) {
+            ASSERT_TRUE(same_bits(scene->tracer().closest(ray), settled->tracer().closest(ray)));
+            ASSERT_EQ(scene->tracer().any(ray), settled->tracer().any(ray));
+            std::vector<Hit> hits;
+            std::vector<Hit> expected;
+            scene->tracer().all(ray, hits);
+            settled->tracer().all(ray, expected);
+            ASSERT_TRUE(std::equal(hits.begin(), hits.end(), expected.begin(), expected.end(), same_bits));
+        }
+        EXPECT_FALSE(are_areas_settled(*scene)) << rays;
+        EXPECT_EQ(scene->tracer().primitives().degenerate_count(), 225u);
+        EXPECT_TRUE(are_areas_settled(*scene));
+    }
+}
+
+TEST(Scene, SettlesAreasForViewsAndRefits) {
+    const Soup soup = with_some_degenerate();
+    Progress progress;
+    const auto scene = scene_for(soup, 1, std::nullopt);
+    ASSERT_EQ(scene->plan().chosen, Structure::linear_scan);
+    ASSERT_FALSE(are_areas_settled(*scene));
+    ViewRequest request;
+    request.frame.origin = Vec3(0, 0, 5);
+    const auto view = Scene::seen(scene, request, Parallel(1), progress);
+    EXPECT_TRUE(are_areas_settled(*view));
+
+    const auto other = scene_for(soup, 1, std::nullopt);
+    ASSERT_FALSE(are_areas_settled(*other));
+    const auto moved = other->refitted({{soup.arrays(), true, false, ""}}, Parallel(1), progress);
+    EXPECT_EQ(moved->plan().chosen, Structure::linear_scan);
+    EXPECT_EQ(moved->tracer().primitives().hittable_count(), 675u);
+    // As many can be hit as before, so that what was chosen is kept.
+    ASSERT_TRUE(moved->plan().refit.has_value());
+    EXPECT_STRNE(moved->plan().refit->obstacle, "the number of triangles that can be hit has changed");
 }
 
 } // namespace
