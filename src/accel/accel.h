@@ -88,6 +88,8 @@ public:
     // How many rays the next two would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
     // that follow near ones.
     virtual std::size_t rays_at_a_time() const { return 1; }
+    // How many rays keep a thread busy for longer than waking it takes, where that is fewer than through a tree or a grid; 0: it is not.
+    virtual std::size_t rays_worth_thread() const { return 0; }
     // The same for many rays at a time: answer i is that of ray i. scratch: for whatever memory it takes; not reset here.
     virtual void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const;
     virtual void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const;

@@ -32,6 +32,11 @@ HWY_INLINE T* lane_of(T* blocks, std::size_t lane) {
 
 inline constexpr std::uint32_t listed_at_once = 8;
 
+// Whether float32 coordinates get into a frame without leaving float32.
+inline bool scales_only(const CornerFrame& frame) {
+    return frame.center == Vec3(0.0) && frame.scale >= 0x1p-100 && frame.scale <= 0x1p100;
+}
+
 // ---- Reading the caller's arrays. They need not be aligned.
 
 // Vertices whose components lie side by side.
@@ -271,8 +276,7 @@ HWY_INLINE std::uint32_t gather_groups(const TriangleArrays& arrays, const Index
     const VertexRows vertices{arrays.vertices.data, arrays.vertices.stride};
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (std::is_same_v<Coordinate, float> && std::is_same_v<Out, float>) {
-        const bool scales_only = frame.center == Vec3(0.0) && frame.scale >= 0x1p-100 && frame.scale <= 0x1p100;
-        if (arrays.vertices.is_packed() && scales_only && lane % row_group_size == 0) {
+        if (arrays.vertices.is_packed() && scales_only(frame) && lane % row_group_size == 0) {
             const PackedRows rows{arrays.vertices.data, arrays.vertex_count - 1};
             const auto scale = hn::Set(RowTag(), static_cast<float>(frame.scale));
             while (end - first >= row_group_size) {

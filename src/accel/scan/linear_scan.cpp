@@ -12,12 +12,34 @@ namespace {
 // Whole blocks; progress is reported after each task.
 constexpr std::uint64_t blocks_per_task = 2048;
 
+// Blocks of more triangles leave the second-level cache. Where triangles share their vertices a ray that comes alone then takes as long over
+// them as by outcodes, and many at a time take longer: docs/decisions/0027-few-rays.md.
+constexpr std::uint32_t most_gathered_beside_outcodes = 16384;
+
+// As many rays as go through the triangles together, 16 by the widest registers, take 1.7 ns a triangle: 60 us, where waking a thread takes
+// 25 at most. Fewer than go together are not worth a thread of their own, however long they take.
+constexpr std::uint32_t fewest_triangles_for_thread = 32768;
+constexpr std::size_t rays_for_thread = 16;
+
+// Each of the triangles that tell where most are waits for memory that nothing else has asked for yet: 256 took half as long as one ray. A frame
+// that is not quite in the middle costs a filter little.
+constexpr std::uint32_t frame_sample = 16;
+
+// Where most triangles are is not worth the question where they are a handful.
+SceneFrame frame_of_bounds(const Box& bounds) {
+    const double size = max_component(bounds.size());
+    return {SceneFrame::choose_center(bounds.center(), size), size, bounds};
+}
+
 } // namespace
 
 LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) {
     if (primitives_.hittable_count() == 0) return;
-    frame_ = scene_frame(primitives_);
+    const bool is_tiny = primitives_.count() <= most_tested_singly;
+    if (is_tiny && input.few_rays) return;
+    frame_ = is_tiny ? frame_of_bounds(primitives_.outer_bounds()) : scene_frame(primitives_, frame_sample);
     if (input.few_rays) return;
+    if (primitives_.count() > most_gathered_beside_outcodes && suit_outcodes(primitives_)) return;
     const std::size_t size = corner_blocks_for(primitives_.count()) * corner_block_numbers;
     // Without blocks a scan is slower; that is no reason to have none.
     if (input.memory_limit != 0 && sizeof *this + size * sizeof(float) > input.memory_limit) return;
@@ -39,6 +61,10 @@ void LinearScan::gather(const BuildInput& input) {
 }
 
 ScannedScene LinearScan::scanned() const { return {primitives_, frame_, blocks_.empty() ? nullptr : blocks_.data()}; }
+
+std::size_t LinearScan::rays_worth_thread() const {
+    return primitives_.count() >= fewest_triangles_for_thread ? rays_for_thread : 0;
+}
 
 PrimitiveHit LinearScan::closest(const Ray& ray, const Query& query) const {
     ClosestCollector collector(ray, query);

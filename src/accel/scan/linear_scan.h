@@ -20,6 +20,7 @@ public:
     bool any(const Ray& ray, const Query& query) const override;
     void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override;
     std::size_t rays_at_a_time() const override { return 64; } // what they share is paid for with 8 already
+    std::size_t rays_worth_thread() const override;
     void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;
     void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const override;
 

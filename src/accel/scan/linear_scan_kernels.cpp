@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "accel/scan/outcodes-inl.h"
 #include "accel/scan/scan_ray.h"
 #include "geometry/corner_lines-inl.h"
 
@@ -27,6 +28,9 @@ constexpr std::uint32_t tile_triangles = tile_blocks * corner_block;
 
 // So many rays go through the triangles together: their numbers stay beside a tile.
 constexpr std::size_t rays_together = 32;
+
+// So many rays at a time are sooner done by outcodes than over blocks, where triangles share their vertices.
+constexpr std::size_t fewest_not_over_blocks = 6;
 
 CornerFrame corner_frame(const SceneFrame& frame) { return {frame.center(), frame.scale()}; }
 
@@ -143,25 +147,161 @@ void gather_kernel(const Primitives& primitives, const SceneFrame& frame, std::u
     fill_lanes(blocks, count, corner_blocks_for(count) * corner_block);
 }
 
-// All rays of a group through all triangles. `sinks`, one for each, take what may be hit.
+// Rays that go through the triangles together. `sinks`, one for each, take what may be hit.
+template <class Sink>
+struct RayGroup {
+    const ScanRay* rays;
+    Sink* sinks;
+    std::uint32_t live; // a bit for each ray that wants more
+
+    void test(std::size_t ray, std::uint32_t primitive) {
+        if (sinks[ray](primitive)) live &= ~(std::uint32_t{1} << ray);
+    }
+};
+
+// The rays of a group through the primitives of a tile, first ... first + count - 1.
+template <class Sink>
+void scan_tile(const ScannedScene& scene, std::uint32_t first, std::uint32_t count, RayGroup<Sink>& group) {
+    HWY_ALIGN float gathered[tile_blocks * corner_block_numbers];
+    const float* blocks = gathered;
+    if (scene.blocks != nullptr) {
+        blocks = scene.blocks + first / corner_block * corner_block_numbers;
+    } else {
+        gather_kernel(scene.primitives, scene.frame, first, first + count, gathered);
+    }
+    for (std::uint32_t rays = group.live; rays != 0; rays &= rays - 1) {
+        const auto i = static_cast<std::size_t>(__builtin_ctz(rays));
+        if (scan_blocks(group.rays[i], blocks, corner_blocks_for(count), first, group.sinks[i]))
+            group.live &= ~(std::uint32_t{1} << i);
+    }
+}
+
+template <class Sink>
+void scan_tiles(const ScannedScene& scene, std::uint32_t first, std::uint32_t end, RayGroup<Sink>& group) {
+    for (; first < end && group.live != 0; first += std::min(tile_triangles, end - first))
+        scan_tile(scene, first, std::min(tile_triangles, end - first), group);
+}
+
+// What outcodes leave of a tile's triangles: how many corners are around a ray depends on how large triangles are, and how they lie to the
+// axes. Where they are many, the tile is scanned as others are, which rules out more.
+class Remaining {
+public:
+    explicit Remaining(std::size_t rays) : most_pairs_(32 + 8 * rays) {}
+
+    // Returns false where there are too many.
+    HWY_INLINE bool add(std::uint32_t triangle, std::uint32_t rays) {
+        pairs_ += static_cast<std::size_t>(__builtin_popcount(rays));
+        if (count_ == most || pairs_ > most_pairs_) return false;
+        triangles_[count_] = triangle;
+        rays_[count_] = rays;
+        ++count_;
+        return true;
+    }
+    void clear() { count_ = pairs_ = 0; }
+
+    template <class Sink>
+    void test(std::uint32_t first_primitive, RayGroup<Sink>& group) const {
+        for (std::size_t k = 0; k < count_; ++k) {
+            for (std::uint32_t rays = rays_[k] & group.live; rays != 0; rays &= rays - 1)
+                group.test(static_cast<std::size_t>(__builtin_ctz(rays)), first_primitive + triangles_[k]);
+        }
+    }
+
+private:
+    static constexpr std::size_t most = 64;
+    const std::size_t most_pairs_;
+    std::size_t count_ = 0;
+    std::size_t pairs_ = 0;
+    std::uint32_t triangles_[most];
+    std::uint32_t rays_[most];
+};
+
+// The triangles of a mesh, whose vertices have codes, against a group.
+template <class Codes, class Sink>
+void scan_codes(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32_t first_primitive,
+                const typename Codes::Code* codes, RayGroup<Sink>& group) {
+    with_indices(mesh.arrays().indices, [&](const auto& index) HWY_ATTR {
+        Remaining remaining(static_cast<std::size_t>(__builtin_popcount(group.live)));
+        for (std::uint32_t begin = 0; begin < mesh.triangle_count() && group.live != 0;) {
+            const std::uint32_t count = std::min(tile_triangles, mesh.triangle_count() - begin);
+            remaining.clear();
+            bool all_fit = true;
+            for (std::uint32_t i = begin; i < begin + count; ++i) {
+                const std::uint32_t near =
+                    group.live & Codes::near(codes[index(i, 0)] & codes[index(i, 1)] & codes[index(i, 2)]);
+                if (HWY_LIKELY(near == 0)) continue;
+                all_fit = remaining.add(i, near);
+                if (!all_fit) break;
+            }
+            if (all_fit) {
+                remaining.test(first_primitive, group);
+            } else {
+                scan_tile(scene, first_primitive + begin, count, group);
+            }
+            begin += count;
+        }
+    });
+}
+
+// The rest of the memory is worth more to the caller.
+constexpr std::uint64_t most_code_bytes = std::uint64_t{64} << 20;
+
+// The rays of a group, Codes::rays at most, through a mesh. Returns false, with nothing done, where there is no memory for it.
+template <class Codes, class Sink>
+bool scan_mesh(const ScannedScene& scene, const TriangleMesh& mesh, std::uint32_t first_primitive,
+               RayGroup<Sink>& group) {
+    using Code = typename Codes::Code;
+    // Behind the last there is room for what vectors write there.
+    const std::uint64_t vertices = mesh.arrays().vertex_count;
+    const std::uint64_t bytes = (vertices + 16) * sizeof(Code);
+    if (bytes > most_code_bytes) return false;
+    CodeMemory memory;
+    auto* const codes = reinterpret_cast<Code*>(memory.take(bytes));
+    if (codes == nullptr) return false;
+    with_vertices(mesh.arrays().vertices, corner_frame(scene.frame), [&](const auto& rows, float scale) HWY_ATTR {
+        OutcodeRay rays[Codes::rays];
+        for (std::size_t i = 0; i < Codes::rays; ++i) {
+            if ((group.live >> i & 1) != 0) rays[i] = OutcodeRay(group.rays[i], scale);
+        }
+        Codes::note(rays, rows, vertices, codes);
+    });
+    scan_codes<Codes>(scene, mesh, first_primitive, codes, group);
+    return true;
+}
+
+// The rays of a group through all meshes, by codes where that suits the mesh.
+template <class Codes, class Sink>
+void scan_meshes(const ScannedScene& scene, RayGroup<Sink>& group) {
+    std::uint32_t first = 0;   // of the mesh
+    std::uint32_t waiting = 0; // the primitives from here up to the mesh go through tiles, of several meshes at a time
+    for (const auto& mesh : scene.primitives.meshes()) {
+        const std::uint32_t end = first + mesh->triangle_count();
+        if (suits_outcodes(*mesh, Codes::rays) && scan_mesh<Codes>(scene, *mesh, first, group)) {
+            scan_tiles(scene, waiting, first, group);
+            waiting = end;
+        }
+        first = end;
+    }
+    scan_tiles(scene, waiting, first, group);
+}
+
+// All rays of a group through all triangles.
 template <class Sink>
 void scan(const ScannedScene& scene, const ScanRay* rays, Sink* sinks, std::size_t count) {
-    HWY_ALIGN float gathered[tile_blocks * corner_block_numbers];
-    const std::uint32_t triangles = scene.primitives.count();
-    bool done[rays_together] = {};
-    std::size_t left = count;
-    for (std::uint32_t first = 0; first < triangles && left > 0; first += tile_triangles) {
-        const std::uint32_t here = std::min(tile_triangles, triangles - first);
-        const float* blocks = gathered;
-        if (scene.blocks != nullptr) {
-            blocks = scene.blocks + first / corner_block * corner_block_numbers;
+    using Many = ManyRaysCode<16>;
+    if (scene.blocks != nullptr && (count < fewest_not_over_blocks || !suit_outcodes(scene.primitives))) {
+        RayGroup<Sink> group{rays, sinks, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)};
+        scan_tiles(scene, 0, scene.primitives.count(), group);
+        return;
+    }
+    const ScannedScene in_place{scene.primitives, scene.frame, nullptr};
+    for (std::size_t begin = 0; begin < count; begin += Many::rays) {
+        const std::size_t size = std::min(Many::rays, count - begin);
+        RayGroup<Sink> group{rays + begin, sinks + begin, (std::uint32_t{1} << size) - 1};
+        if (size == 1) {
+            scan_meshes<OneRayCode>(in_place, group);
         } else {
-            gather_kernel(scene.primitives, scene.frame, first, first + here, gathered);
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (done[i] || !scan_blocks(rays[i], blocks, corner_blocks_for(here), first, sinks[i])) continue;
-            done[i] = true;
-            --left;
+            scan_meshes<Many>(in_place, group);
         }
     }
 }
@@ -182,7 +322,6 @@ struct Candidates {
 // Sets the rays up, those that may hit something, in groups.
 template <class Collector>
 void scan_in_groups(const ScannedScene& scene, const Ray* rays, std::size_t count, Collector* collectors) {
-    if (scene.primitives.hittable_count() == 0) return;
     std::optional<ExactRay> exact[rays_together];
     ScanRay group[rays_together];
     Candidates<Collector> candidates[rays_together];
@@ -217,23 +356,65 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace raywise {
+namespace {
+
+// Fewer triangles are not worth it.
+constexpr std::uint32_t fewest_for_outcodes = 256;
+
+} // namespace
+
+bool suits_outcodes(const TriangleMesh& mesh, std::size_t rays) {
+    if (mesh.invalid_count() > 0 || mesh.vertex_bounds().empty() || mesh.triangle_count() < fewest_for_outcodes)
+        return false;
+    const std::uint64_t triangles = mesh.triangle_count();
+    return mesh.arrays().vertex_count <= (rays == 1 ? 3 * triangles : triangles + triangles / 2);
+}
+
+bool suit_outcodes(const Primitives& primitives) {
+    const auto suits = [](const auto& mesh) { return suits_outcodes(*mesh, 2); };
+    return std::all_of(primitives.meshes().begin(), primitives.meshes().end(), suits);
+}
 
 HWY_EXPORT(gather_kernel);
 HWY_EXPORT(scan_closest_kernel);
 HWY_EXPORT(scan_any_kernel);
 HWY_EXPORT(scan_all_kernel);
 
+namespace {
+
+// Where there are so few triangles that setting a ray up for the filter takes longer than asking the exact test about each.
+template <class Collector>
+void test_all(const ScannedScene& scene, const Ray* rays, std::size_t count, Collector* collectors) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!rays[i].is_traceable()) continue;
+        const ExactRay ray(rays[i]);
+        PrimitiveHit hit;
+        for (std::uint32_t primitive = 0; primitive < scene.primitives.count(); ++primitive) {
+            if (scene.primitives.test(ray, primitive, hit) && collectors[i].collect(hit)) break;
+        }
+    }
+}
+
+bool is_tiny(const ScannedScene& scene) {
+    return scene.blocks == nullptr && scene.primitives.count() <= most_tested_singly;
+}
+
+} // namespace
+
 void gather_blocks(const Primitives& primitives, const SceneFrame& frame, std::uint32_t first, std::uint32_t end,
                    float* blocks) {
     HWY_DYNAMIC_DISPATCH(gather_kernel)(primitives, frame, first, end, blocks);
 }
 void scan_closest(const ScannedScene& scene, const Ray* rays, std::size_t count, ClosestCollector* collectors) {
+    if (is_tiny(scene)) return test_all(scene, rays, count, collectors);
     HWY_DYNAMIC_DISPATCH(scan_closest_kernel)(scene, rays, count, collectors);
 }
 void scan_any(const ScannedScene& scene, const Ray* rays, std::size_t count, AnyCollector* collectors) {
+    if (is_tiny(scene)) return test_all(scene, rays, count, collectors);
     HWY_DYNAMIC_DISPATCH(scan_any_kernel)(scene, rays, count, collectors);
 }
 void scan_all(const ScannedScene& scene, const Ray& ray, AllCollector& collector) {
+    if (is_tiny(scene)) return test_all(scene, &ray, 1, &collector);
     HWY_DYNAMIC_DISPATCH(scan_all_kernel)(scene, ray, collector);
 }
 

@@ -11,13 +11,22 @@
 
 namespace raywise {
 
+// Of no more primitives each is tested for itself where there are no blocks. That asks for no frame.
+inline constexpr std::uint32_t most_tested_singly = 16;
+
 struct ScannedScene {
-    const Primitives& primitives; // where none can be hit nothing is scanned
+    const Primitives& primitives;
     const SceneFrame& frame;
     // All primitives in the order of their numbers (geometry/corner_lines.h), in coordinates of the frame; null: they are read from
     // the meshes.
     const float* blocks;
 };
+
+// Whether so many rays at a time are scanned by outcodes (outcodes-inl.h), with the mesh read in place, rather than triangle by triangle. For
+// many its triangles have to share their vertices; one is quicker so in any case, but for vertices that only other meshes use.
+bool suits_outcodes(const TriangleMesh& mesh, std::size_t rays);
+// ... many rays through each mesh.
+bool suit_outcodes(const Primitives& primitives);
 
 // The primitives first ... end - 1, from the lane `lane` of `blocks` on, which has NaN in the lanes behind them that a block is
 // filled up with.
