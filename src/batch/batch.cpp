@@ -37,6 +37,8 @@ public:
           parallel_(parallel),
           ordering_(ordering),
           at_a_time_(tracer.rays_at_a_time()),
+          worth_thread_(tracer.accel().rays_worth_thread() > 0 ? tracer.accel().rays_worth_thread()
+                                                               : fewest_rays_of_thread),
           progress_(watch, rays.count, parallel),
           window_(rays, tracer.primitives(), parallel, progress_),
           blocks_(parallel.threads()) {}
@@ -99,14 +101,14 @@ private:
     void run_window(const Body& body, bool is_on_trial) {
         const Elements& elements = window_.elements();
         const std::uint64_t count = elements.count();
-        const std::uint64_t size = batch_block(count, parallel_.threads(), at_a_time_);
+        const std::uint64_t size = batch_block(count, parallel_.threads(), at_a_time_, worth_thread_);
         const std::uint64_t blocks = (count + size - 1) / size;
         std::atomic<std::uint64_t> next{0};
         for (RayBlock& block : blocks_) {
             block.ns_per_ray.clear();
             if (is_on_trial) block.ns_per_ray.reserve(blocks); // here, where a refusal leaves the outputs alone
         }
-        parallel_.for_each(batch_threads(count, parallel_.threads()), [&](std::uint64_t thread) {
+        parallel_.for_each(batch_threads(count, parallel_.threads(), worth_thread_), [&](std::uint64_t thread) {
             RayBlock& block = blocks_[thread];
             for (;;) {
                 progress_.poll();
@@ -140,6 +142,7 @@ private:
     const Parallel& parallel_;
     const RayOrdering ordering_;
     const std::size_t at_a_time_;
+    const std::uint64_t worth_thread_; // rays
     BatchProgress progress_;
     RayWindow window_;
     std::vector<RayBlock> blocks_; // of each thread
