@@ -3,6 +3,7 @@
 #include "guard.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -13,10 +14,10 @@ Error bad_argument(const std::string& message) { return {Status::ERROR_INVALID_A
 Error bad_strides(const std::string& message) { return {Status::ERROR_OVERLAP, message}; }
 
 // The type an array has, 0 standing for the usual one. `allowed` lists what the place takes, the usual one first.
-Scalar read_type(std::int32_t type, const std::vector<std::int32_t>& allowed, const std::string& name) {
-    const std::int32_t actual = type == RW_TYPE_DEFAULT ? allowed.front() : type;
+Scalar read_type(std::int32_t type, std::initializer_list<std::int32_t> allowed, const ArgumentName& name) {
+    const std::int32_t actual = type == RW_TYPE_DEFAULT ? *allowed.begin() : type;
     if (std::find(allowed.begin(), allowed.end(), actual) == allowed.end()) {
-        throw bad_argument(name + ": type " + std::to_string(type) + " has no meaning here");
+        throw bad_argument(name.text() + ": type " + std::to_string(type) + " has no meaning here");
     }
     switch (actual) {
         case RW_FLOAT32:
@@ -67,17 +68,17 @@ bool overlaps(const Strides& strides, std::size_t scalar_size, std::uint64_t cou
 
 } // namespace
 
-void read_reserved(std::int32_t reserved, const std::string& name) {
+void read_reserved(std::int32_t reserved, const ArgumentName& name) {
     if (reserved != 0)
-        throw Error(Status::ERROR_RESERVED, name + ".reserved: it is " + std::to_string(reserved) + ", not 0");
+        throw Error(Status::ERROR_RESERVED, name.text() + ".reserved: it is " + std::to_string(reserved) + ", not 0");
 }
 
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
-                        const std::string& name) {
+                        const ArgumentName& name) {
     read_reserved(array.reserved, name);
     if (array.data == nullptr) {
         if (required && count > 0)
-            throw bad_argument(name + ": data is NULL for " + std::to_string(count) + " elements");
+            throw bad_argument(name.text() + ": data is NULL for " + std::to_string(count) + " elements");
         return {};
     }
     StridedArray result;
@@ -91,7 +92,7 @@ StridedArray read_array(const rw_array& array, std::uint64_t count, int componen
 }
 
 OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
-                        const std::string& name) {
+                        const ArgumentName& name) {
     read_reserved(output.reserved, name);
     if (output.data == nullptr) return {};
     OutputArray result;
@@ -99,9 +100,10 @@ OutputArray read_output(const rw_output& output, std::uint64_t count, int compon
                     : kind == OutputKind::ids   ? read_type(output.type, {RW_UINT32, RW_UINT64}, name)
                                                 : read_type(output.type, {RW_UINT8, RW_UINT32, RW_UINT64}, name);
     const Strides strides = read_strides(output.stride, output.component_stride, result.scalar, components);
-    if (output.stride == RW_REPEAT) throw bad_strides(name + ": RW_REPEAT would write every answer to one place");
+    if (output.stride == RW_REPEAT)
+        throw bad_strides(name.text() + ": RW_REPEAT would write every answer to one place");
     if (overlaps(strides, size_of(result.scalar), count, components))
-        throw bad_strides(name + ": its strides let elements overlap");
+        throw bad_strides(name.text() + ": its strides let elements overlap");
     result.data = static_cast<std::byte*>(output.data);
     result.stride = strides.stride;
     result.component_stride = strides.component_stride;
@@ -116,34 +118,35 @@ TriangleArrays read_triangles(const rw_triangles& triangles, const std::string& 
     arrays.vertex_count = triangles.vertex_count;
     arrays.triangle_count = triangles.triangle_count;
     arrays.vertices =
-        read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, name + ".vertices");
-    arrays.indices =
-        read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false, name + ".indices");
+        read_array(triangles.vertices, triangles.vertex_count, 3, Elements::numbers, true, {name.c_str(), ".vertices"});
+    arrays.indices = read_array(triangles.indices, triangles.triangle_count, 3, Elements::indices, false,
+                                {name.c_str(), ".indices"});
     return arrays;
 }
 
 RayArrays read_rays(const rw_rays* source, const char* name) {
     const rw_rays rays = read_struct(source, name);
-    const std::string prefix = std::string(name) + ".";
-    if (rays.flags != 0) throw bad_argument(prefix + "flags: " + std::to_string(rays.flags) + " has an unknown bit");
+    if (rays.flags != 0)
+        throw bad_argument(std::string(name) + ".flags: " + std::to_string(rays.flags) + " has an unknown bit");
     if (rays.count > RW_RAYS_LIMIT) {
-        throw Error(Status::ERROR_TOO_MANY,
-                    prefix + "count: " + std::to_string(rays.count) + " is above " + std::to_string(RW_RAYS_LIMIT));
+        throw Error(Status::ERROR_TOO_MANY, std::string(name) + ".count: " + std::to_string(rays.count) + " is above " +
+                                                std::to_string(RW_RAYS_LIMIT));
     }
     RayArrays arrays;
     arrays.count = rays.count;
-    arrays.origin = read_array(rays.origin, rays.count, 3, Elements::numbers, true, prefix + "origin");
-    arrays.direction = read_array(rays.direction, rays.count, 3, Elements::numbers, true, prefix + "direction");
-    arrays.tmin = read_array(rays.tmin, rays.count, 1, Elements::numbers, false, prefix + "tmin");
-    arrays.tmax = read_array(rays.tmax, rays.count, 1, Elements::numbers, false, prefix + "tmax");
+    arrays.origin = read_array(rays.origin, rays.count, 3, Elements::numbers, true, {name, ".origin"});
+    arrays.direction = read_array(rays.direction, rays.count, 3, Elements::numbers, true, {name, ".direction"});
+    arrays.tmin = read_array(rays.tmin, rays.count, 1, Elements::numbers, false, {name, ".tmin"});
+    arrays.tmax = read_array(rays.tmax, rays.count, 1, Elements::numbers, false, {name, ".tmax"});
     arrays.skip.primitive =
-        read_array(rays.skip_primitive, rays.count, 1, Elements::indices, false, prefix + "skip_primitive");
+        read_array(rays.skip_primitive, rays.count, 1, Elements::indices, false, {name, ".skip_primitive"});
     arrays.skip.geometry =
-        read_array(rays.skip_geometry, rays.count, 1, Elements::indices, false, prefix + "skip_geometry");
+        read_array(rays.skip_geometry, rays.count, 1, Elements::indices, false, {name, ".skip_geometry"});
     arrays.skip.offsets = {reinterpret_cast<const std::byte*>(rays.skip_offsets), sizeof(std::uint64_t),
                            sizeof(std::uint64_t), Scalar::uint64};
     if (!arrays.skip.wanted() && (arrays.skip.geometry.data != nullptr || arrays.skip.offsets.data != nullptr))
-        throw bad_argument(prefix + "skip_primitive: data is NULL, but skip_geometry or skip_offsets is not");
+        throw bad_argument(std::string(name) +
+                           ".skip_primitive: data is NULL, but skip_geometry or skip_offsets is not");
     return arrays;
 }
 
@@ -183,16 +186,15 @@ std::vector<std::uint32_t> read_skips(const rw_ray_options& source, const Primit
 }
 
 Workload read_workload(std::uint64_t count, std::int32_t kind, const char* name) {
-    const std::string prefix = std::string(name) + ".";
     if (kind < RW_RAYS_ANY_KIND || kind > RW_RAYS_DIFFUSE) {
-        throw bad_argument(prefix + "kind: " + std::to_string(kind) + " is no kind of rays");
+        throw bad_argument(std::string(name) + ".kind: " + std::to_string(kind) + " is no kind of rays");
     }
     Workload workload;
     workload.kind = static_cast<RayKind>(kind);
     if (count == RW_RAYS_UNKNOWN) return workload;
     if (count == 0 || count > RW_RAYS_LIMIT) {
-        throw Error(Status::ERROR_RAY_COUNT, prefix + "count: " + std::to_string(count) + " is not between 1 and " +
-                                                 std::to_string(RW_RAYS_LIMIT) +
+        throw Error(Status::ERROR_RAY_COUNT, std::string(name) + ".count: " + std::to_string(count) +
+                                                 " is not between 1 and " + std::to_string(RW_RAYS_LIMIT) +
                                                  "; RW_RAYS_UNKNOWN says that nobody knows");
     }
     workload.rays = count;

@@ -65,8 +65,22 @@ void write_struct(T* target, const char* name, T value) {
     std::memcpy(target, &value, std::min<std::size_t>(value.struct_size, sizeof value));
 }
 
+// What an argument is called in messages, put together only where there is one.
+class ArgumentName {
+public:
+    ArgumentName(const char* name) : owner_(""), member_(name) {} // NOLINT: a name is one
+    // owner and member: outlive it.
+    ArgumentName(const char* owner, const char* member) : owner_(owner), member_(member) {}
+
+    std::string text() const { return std::string(owner_) + member_; }
+
+private:
+    const char* owner_;
+    const char* member_; // with the dot
+};
+
 // A member kept for later versions.
-void read_reserved(std::int32_t reserved, const std::string& name);
+void read_reserved(std::int32_t reserved, const ArgumentName& name);
 
 enum class Elements {
     numbers,
@@ -75,7 +89,7 @@ enum class Elements {
 
 // components: 1, 2 or 3. required: whether data may be NULL.
 StridedArray read_array(const rw_array& array, std::uint64_t count, int components, Elements elements, bool required,
-                        const std::string& name);
+                        const ArgumentName& name);
 
 enum class OutputKind {
     numbers,
@@ -83,7 +97,7 @@ enum class OutputKind {
     flags
 };
 OutputArray read_output(const rw_output& output, std::uint64_t count, int components, OutputKind kind,
-                        const std::string& name);
+                        const ArgumentName& name);
 
 // name: of the struct, in messages.
 TriangleArrays read_triangles(const rw_triangles& triangles, const std::string& name = "triangles");
