@@ -26,10 +26,10 @@
  * - Threads. Functions may run at the same time in any number of threads. Those that take a handle which is not const
  *   (an rw_scene that is being filled and committed) need that handle alone.
  * - Threads of the library. The first commit, refit, view or batch that is worth it starts them: of 1,024 triangles,
- *   or 512 rays, or more, with an option `threads` that is not 1 and no parallel_for. They are oneTBB's, at most one
- *   fewer than processors the process may use, serve all calls, and stay, asleep while there is nothing to do. Single
- *   rays, smaller calls, and loading the library start none. Calls of several threads of the host do not wait for each
- *   other (only mesh files are read one at a time).
+ *   or 512 rays (32 where each is tested against 32,768 triangles), or more, with an option `threads` that is not 1
+ *   and no parallel_for. They are oneTBB's, at most one fewer than processors the process may use, serve all calls,
+ *   and stay, asleep while there is nothing to do. Single rays, smaller calls, and loading the library start none.
+ *   Calls of several threads of the host do not wait for each other (only mesh files are read one at a time).
  * - Memory. What a call took is given back when it returns, whatever the number of calls before. Kept for the next one
  *   is the place in which threads meet: for each value of `threads` in use as many as there were calls at once, 7 kB
  *   each and 2 kB for each thread above two.
