@@ -6,17 +6,14 @@
 
 namespace raywise {
 
-Cost scan_in_place(const MachineConstants& constants, const Cost& gathered) {
-    const StructureConstants& lines = constants.structures[Structure::linear_scan];
+Cost without_blocks(const MachineConstants& constants, const Cost& gathered) {
     Cost cost = gathered;
-    cost.build_ns = lines.build_ns.fixed;
-    cost.ray_ns += gathered.build_ns - lines.build_ns.fixed;
-    cost.bytes = lines.bytes.fixed;
+    cost.bytes = constants.structures[Structure::linear_scan].bytes.fixed;
     return cost;
 }
 
 Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes) {
-    // A number for each triangle in its cell, and half as much again for those on an edge, and for the cells.
+    // A number for each triangle in its cell, more for those on an edge, and the cells.
     constexpr double least_per_triangle = 8.0;
     if (cost.bytes <= bytes || !shrinks(structure) || bytes < least_per_triangle * features.triangles) return cost;
     Cost smaller = cost;
@@ -35,7 +32,7 @@ Cost predict(Structure structure, const MachineConstants& constants, const Scene
     cost.ray_ns = ray.at(ray_units(structure), features);
     cost.bytes = lines.bytes.at(byte_units(structure), features);
     cost.error = std::max(lines.build_ns.residual, ray.residual);
-    if (structure == Structure::linear_scan && !worth_gathering(workload)) return scan_in_place(constants, cost);
+    if (structure == Structure::linear_scan && !worth_gathering(workload)) return without_blocks(constants, cost);
     return cost;
 }
 

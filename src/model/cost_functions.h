@@ -17,8 +17,8 @@ struct Cost {
     double total_ns(double rays) const { return build_ns + rays * ray_ns; }
 };
 
-// The same scan when it reads the caller's arrays: it builds nothing, and each ray gathers the triangles on its way.
-Cost scan_in_place(const MachineConstants& constants, const Cost& gathered);
+// The same scan without blocks of its own: what it takes for them is memory alone, as a batch reads the caller's arrays once for many rays.
+Cost without_blocks(const MachineConstants& constants, const Cost& gathered);
 
 // The same structure within so many bytes, where it shrinks and they suffice; else it stays as it is. Cells of a grid are fewer then, and what
 // each holds, which is what a ray's time goes into, grows as they do.

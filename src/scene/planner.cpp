@@ -67,7 +67,7 @@ private:
             candidate.predicted =
                 raywise::predict(structure, request_.profile->constants, plan_.features, request_.workload);
             if (structure == Structure::linear_scan && exceeds_limit(candidate.predicted.bytes))
-                candidate.predicted = scan_in_place(request_.profile->constants, candidate.predicted);
+                candidate.predicted = without_blocks(request_.profile->constants, candidate.predicted);
             if (request_.memory_limit != 0) {
                 candidate.predicted =
                     within(structure, candidate.predicted, plan_.features, static_cast<double>(request_.memory_limit));
