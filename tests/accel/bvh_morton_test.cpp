@@ -228,6 +228,42 @@ TEST(BvhMorton, MeshesOfAllLayouts) {
     }
 }
 
+// Float32 rows are put on finer grids by vectors, whatever else one by one: many small heaps, each within one cell, of all sizes around those.
+TEST(BvhMorton, HeapsOfFloat32) {
+    Triangles triangles;
+    for (std::size_t heap = 0; heap < 300; ++heap) {
+        const Vec3 place(static_cast<double>(heap % 7), static_cast<double>(heap / 7), heap % 3);
+        for (const Corners& c : soup(1 + heap, 0.05, static_cast<unsigned>(heap), 1e-4))
+            triangles.push_back({place + c[0], place + c[1], place + c[2]});
+    }
+    std::vector<float> rows;
+    std::vector<double> wide;
+    for (const Corners& corners : triangles) {
+        for (const Vec3& corner : corners) {
+            for (int axis = 0; axis < 3; ++axis) {
+                rows.push_back(static_cast<float>(corner[axis]));
+                wide.push_back(static_cast<double>(rows.back()));
+            }
+        }
+    }
+    const auto nodes = [&](const StridedArray& vertices) {
+        TriangleArrays arrays;
+        arrays.vertices = vertices;
+        arrays.vertex_count = 3 * triangles.size();
+        arrays.triangle_count = triangles.size();
+        const Primitives primitives({std::make_shared<const TriangleMesh>(arrays, false, false)});
+        const Parallel parallel(2);
+        Progress progress;
+        const BvhMorton bvh({primitives, {}, {}, parallel, progress});
+        expect_sound(bvh.tree(), primitives);
+        EXPECT_LE(depth_of(bvh.tree()), bvh_max_depth);
+        return static_cast<double>(bvh.tree().nodes.size());
+    };
+    const auto* const narrow_bytes = reinterpret_cast<const std::byte*>(rows.data());
+    const auto* const wide_bytes = reinterpret_cast<const std::byte*>(wide.data());
+    EXPECT_NEAR(nodes({narrow_bytes, 12, 4, Scalar::float32}) / nodes({wide_bytes, 24, 8, Scalar::float64}), 1.0, 0.02);
+}
+
 TEST(BvhMorton, ProgressRisesAndCancels) {
     Scene scene(soup(200000, 0.02, 22));
     const Parallel two(2);
