@@ -1,4 +1,4 @@
-// A ray as structures see it that divide space at planes in float64 (grid, kd-tree, binary trees): where it starts near them, and what
+// A ray as structures see it that divide space at planes in float64 (grid, binary trees): where it starts near them, and what
 // its distances may be off by.
 //
 // Far away float64 does not resolve the scene: 1e11 times its size from it a distance is wrong by 1e-5 of that size. So a ray that
