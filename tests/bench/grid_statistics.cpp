@@ -79,7 +79,7 @@ void run(const std::string& folder) {
         Progress progress;
         GridOptions options;
         options.resolution = row.resolution;
-        options.overlap_test = OverlapTest::all;
+        options.overlap_test = OverlapTest::none; // theirs are met best so
         options.gather = false;
         const UniformGrid grid({primitives, {}, {}, parallel, progress}, options);
         const GridStatistics statistics = grid.statistics();

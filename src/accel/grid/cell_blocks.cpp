@@ -9,6 +9,8 @@
 #include "accel/primitive_test-inl.h"
 #include "geometry/triangle_block.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstring>
@@ -17,6 +19,37 @@
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace {
+
+// What blocks are made of is fetched ahead, in two steps: the order of cells is not that of the mesh.
+class Ahead {
+public:
+    Ahead(const Primitives& primitives, const std::uint32_t* references, std::uint64_t end)
+        : references_(references), end_(end) {
+        if (primitives.meshes().size() == 1) arrays_ = &primitives.meshes().front()->arrays();
+    }
+
+    HWY_INLINE void fetch(std::uint64_t reference) const {
+        if (arrays_ == nullptr) return;
+        const StridedArray& indices = arrays_->indices;
+        if (indices.data != nullptr && reference + indices_ahead < end_)
+            hwy::Prefetch(indices.data + references_[reference + indices_ahead] * indices.stride);
+        if (reference + vertices_ahead >= end_) return;
+        const std::uint64_t triangle = references_[reference + vertices_ahead];
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint64_t vertex = indices.data != nullptr ? indices.index(triangle, corner)
+                                                                 : 3 * triangle + static_cast<std::uint64_t>(corner);
+            hwy::Prefetch(arrays_->vertices.data + static_cast<std::ptrdiff_t>(vertex) * arrays_->vertices.stride);
+        }
+    }
+
+private:
+    static constexpr std::uint64_t indices_ahead = 48; // references
+    static constexpr std::uint64_t vertices_ahead = 24;
+
+    const TriangleArrays* arrays_ = nullptr;
+    const std::uint32_t* references_;
+    std::uint64_t end_;
+};
 
 // A line of a block. whole: what lies behind it is written later, and may be written over now.
 template <class T>
@@ -50,11 +83,13 @@ void write_blocks(const Primitives& primitives, const GridLists& lists, std::uin
                   std::byte* blocks) {
     const std::uint32_t* const references = lists.references.data();
     const std::uint64_t last = lists.offset(end);
+    const Ahead ahead(primitives, references, last);
     for (std::uint64_t cell = first; cell < end; ++cell) {
         if ((lists.occupied[cell / cells_per_brick] >> (cell % cells_per_brick) & 1u) == 0) continue;
         const std::uint64_t cell_end = lists.offset(cell + 1);
         for (std::uint64_t i = lists.offset(cell); i < cell_end; i += triangle_block_size) {
             const auto n = static_cast<std::uint32_t>(std::min<std::uint64_t>(triangle_block_size, cell_end - i));
+            for (std::uint32_t k = 0; k < n; ++k) ahead.fetch(i + k);
             std::byte* const block = blocks + i * TriangleBlock<T>::bytes_per_triangle;
             // A line of eight reaches seven numbers beyond a block's last line of coordinates, at most.
             const bool whole = last - i >= 2 * triangle_block_size;

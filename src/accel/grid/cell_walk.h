@@ -15,8 +15,8 @@
 //   T <= t are crossed, and the cell it is in then holds P but for 8 * 2^-53 * R along each axis.
 // - Primitives are listed in every cell that they come nearer to than half of overlap_slack cells
 //   (triangle_box_overlap.h). As long as that is more than the error, the primitive is in that cell's list: 2^-17 of
-//   a cell's width against 2^-50 * R. R is at most 8 sizes of the bounds, because rays from farther away are moved (ray/cell_ray.h), and
-//   there are at most 2^24 cells along an axis.
+//   a cell's width against 2^-50 * R. R is at most 8 sizes of the bounds, because rays from farther away are moved (ray/cell_ray.h). What
+//   that rounds their start by along an axis counts as well: walkable_resolution (grid_choice.h) keeps cells wide enough for both.
 // - The walk starts in a brick whose planes behind it have T below the ray's first possible hit, and ends when the
 //   next plane lies beyond the last possible one, both by the ray's margin (ray/cell_ray.h). So the moment lies between start and end.
 #pragma once

@@ -8,6 +8,7 @@
 
 #include "accel/accel.h"
 
+#include <array>
 #include <cstdint>
 
 namespace raywise {
@@ -28,5 +29,11 @@ inline bool expects_rays(const BuildInput& input, double per_primitive) {
 
 // References beyond this coarsen the grid: large primitives that overlap each other, for which smaller cells gain little.
 inline std::uint64_t max_grid_references(std::uint64_t primitives) { return 24 * primitives + (1u << 16); }
+
+// Cells no narrower than the walk's proof asks for (cell_walk.h): half of overlap_slack of them above what a ray's place is off by. A ray
+// from far away is moved next to the scene and rounded there, to 2^-53 of its coordinates and 2^-103 of its distance, which is below 2^60
+// sizes of the scene; planes are off by 2^-47 sizes. bounds: of the lattice, within the scene's.
+std::array<std::uint32_t, 3> walkable_resolution(std::array<std::uint32_t, 3> resolution, const Box& bounds,
+                                                 const Box& scene);
 
 } // namespace raywise

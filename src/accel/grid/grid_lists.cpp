@@ -67,7 +67,7 @@ CellLattice build_limited_lists(const BuildInput& input, const GridOptions& opti
         cells = static_cast<double>(resolution[0]) * resolution[1] * resolution[2];
     }
     for (;;) { // with one cell everything fits
-        const CellLattice lattice(bounds, resolution);
+        const CellLattice lattice(bounds, walkable_resolution(resolution, bounds, bounds));
         const std::uint64_t most = lattice.cell_count() == 1 ? hittable : max_grid_references(hittable);
         if (build_lists(input, lattice, options, most, progress, lists)) return lattice;
         cells /= 4.0;

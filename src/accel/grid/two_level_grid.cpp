@@ -175,15 +175,14 @@ private:
     std::vector<InnerCell> cells_;
 };
 
-CellLattice inner_lattice(const InnerCell& cell, double density, double scene_size) {
+CellLattice inner_lattice(const InnerCell& cell, double density, const Box& scene) {
     const Vec3 size = cell.bounds.size();
     for (double cells = density * cell.count;; cells /= 4.0) {
-        std::array<std::uint32_t, 3> resolution = grid_resolution(size, cells, 1.0);
+        const std::array<std::uint32_t, 3> resolution =
+            walkable_resolution(grid_resolution(size, cells, 1.0), cell.bounds, scene);
         double repeats = 1.0;
         for (std::size_t a = 0; a < 3; ++a) {
             const auto axis = static_cast<glm::length_t>(a);
-            const double most = std::max(1.0, size[axis] / (TwoLevels::least_cell_width * scene_size));
-            if (resolution[a] > most) resolution[a] = static_cast<std::uint32_t>(most);
             if (resolution[a] > 1) repeats *= 1.0 + cell.sizes[axis] / cell.count / size[axis] * resolution[a];
         }
         const CellLattice lattice(cell.bounds, resolution);
@@ -221,12 +220,12 @@ private:
 };
 
 // False where there are more numbers than that.
-bool make_inner_grids(const std::vector<InnerCell>& cells, double density, double scene_size, TwoLevels& levels) {
+bool make_inner_grids(const std::vector<InnerCell>& cells, double density, const Box& scene, TwoLevels& levels) {
     levels.inner.clear();
     levels.inner.reserve(cells.size());
     std::uint64_t numbers = 0;
     for (const InnerCell& cell : cells) {
-        const CellLattice lattice = inner_lattice(cell, density, scene_size);
+        const CellLattice lattice = inner_lattice(cell, density, scene);
         if (numbers + lattice.number_count > most_numbers) return false;
         levels.inner.push_back({lattice, static_cast<std::uint32_t>(numbers)});
         numbers += lattice.number_count;
@@ -240,9 +239,8 @@ void build_inner_grids(const BuildInput& input, const TwoLevelOptions& options, 
     std::uint64_t end = 0;
     for (const InnerCell& cell : split.cells()) ends.push_back(end += cell.count);
     const std::uint64_t most = std::max<std::uint64_t>(end, max_grid_references(input.primitives.hittable_count()));
-    const double scene_size = max_component(input.primitives.bounds().size());
     for (double density = options.density;; density /= 4.0) { // at last each grid has one cell
-        if (!make_inner_grids(split.cells(), density, scene_size, levels)) continue;
+        if (!make_inner_grids(split.cells(), density, input.primitives.bounds(), levels)) continue;
         const std::uint64_t numbers = levels.inner.back().first_cell + levels.inner.back().lattice.number_count;
         const InnerReferences source(input.primitives, split.inner_references(), levels.inner, ends);
         ListBuilder builder(input.parallel, {input.progress, 0.3, 0.6}, source, numbers, end * 5 / 2 + 64,

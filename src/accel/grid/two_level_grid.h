@@ -9,8 +9,8 @@
 // half of overlap_slack cells, and the primitive is listed there (cell_walk.h). If it is one of the cell's own, it is tested. Else it is
 // in the cell's grid, whose bounds hold P: they are those of its primitives, of which P is a point, within the cell moved apart by
 // overlap_slack. So the walk through that grid, along the same ray, comes to the cell of P, as cell_walk.h shows for any lattice, as long
-// as the lattice's cells are so wide that half of overlap_slack of them is above 8 * 2^-53 * R: R is at most 8 sizes of the
-// scene, hence least_cell_width.
+// as the lattice's cells are so wide that half of overlap_slack of them is above 8 * 2^-53 * R, which
+// walkable_resolution (grid_choice.h) sees to for the scene's R.
 #pragma once
 
 #include "accel/accel.h"
@@ -39,8 +39,6 @@ struct InnerGrid {
 
 struct TwoLevels {
     static constexpr std::uint32_t no_grid = std::numeric_limits<std::uint32_t>::max();
-    // Of a cell of an inner grid, in sizes of the scene.
-    static constexpr double least_cell_width = 0x1p-29;
 
     CellLattice coarse;
     GridLists own;                     // of each coarse cell; occupied tells the cells with a grid as well
