@@ -186,7 +186,7 @@ TEST(Bvh, EveryPrimitiveIsInOneLeaf) {
     for (const std::size_t count : {1u, 2u, 17u, 5000u, 20000u}) {
         Scene scene(soup(count, 0.02, 16));
         const BvhTree tree = build_bvh(scene.input());
-        std::vector<std::uint32_t> references = tree.references;
+        PageVector<std::uint32_t> references = tree.references;
         std::sort(references.begin(), references.end());
         ASSERT_EQ(references.size(), count);
         for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(references[i], i);

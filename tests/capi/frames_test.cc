@@ -75,9 +75,9 @@ void ask(const rw_scene* scene) {
     CHECK(hit.primitive != RW_INVALID_ID);
 }
 
-// Their builders take other memory.
+// Its builder takes other memory.
 bool takes_from_malloc(const char* structure) {
-    return structure != nullptr && (std::string(structure) == "uniform_grid" || std::string(structure) == "kd_tree");
+    return structure != nullptr && std::string(structure) == "kd_tree";
 }
 
 // structure: NULL: the library chooses.
