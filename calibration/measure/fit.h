@@ -2,33 +2,36 @@
 #pragma once
 
 #include "model/constants.h"
+#include "model/scene_features.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace raywise::calibration {
 
-// One measurement: the quantity a cost grows with, and the cost.
+// One measurement: the quantities a cost grows with, as many as there are units, and the cost.
 struct Point {
-    double unit;
+    std::array<double, most_cost_units> units;
     double cost; // above 0
 };
 
-// cost = fixed + per_unit * unit with no negative part, by least squares of the relative misfit: a tenth too much
-// counts the same for a scene of a hundred triangles and of a million. The residual is the root mean square of that
-// misfit.
-CostLine fit_line(const std::vector<Point>& points);
+// cost = fixed + the sum of per_unit[i] * units[i] with no negative part, by least squares of the logarithm of predicted over measured: twice
+// too much counts the same as half, for a scene of a hundred triangles and of a million. Parts that take off less than a fiftieth of the
+// misfit are left out. The residual is the root mean square of the logarithms.
+LinearCost fit_cost(const std::vector<Point>& points, std::size_t units);
 
 // What was measured on one mesh with one structure.
 struct BuildMeasurement {
     Structure structure;
-    double triangles;
+    SceneFeatures features;
     double ns;
     double bytes;
 };
 struct RayMeasurement {
     Structure structure;
     std::size_t kind; // as measured_ray_kinds
-    double triangles;
+    SceneFeatures features;
     double ns; // per ray
 };
 
@@ -38,7 +41,7 @@ struct Measurements {
     double primitive_test_ns = 0.0; // the exact test of a triangle that is missed (exact_test.h)
 };
 
-// Whether every line can be drawn: at least `fewest` different sizes for each structure and ray kind.
+// Whether every cost can be told: at least `fewest` different sizes for each structure and ray kind.
 bool suffices(const Measurements& measurements, std::size_t fewest);
 
 // All constants. `measurements` has to suffice for 2.

@@ -2,6 +2,8 @@
 
 #include "base/structure.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstring>
 
 namespace raywise::calibration {
@@ -50,6 +52,17 @@ rw_triangles triangles_of(const workloads::Mesh& mesh) {
     triangles.indices.data = mesh.indices.data();
     triangles.indices.type = RW_UINT32;
     return triangles;
+}
+
+SceneFeatures features_of(const rw_scene* scene) {
+    std::uint64_t size = 0;
+    check(rw_scene_explain(scene, RW_FORMAT_JSON, nullptr, 0, &size), "rw_scene_explain");
+    std::string text(size, '\0');
+    check(rw_scene_explain(scene, RW_FORMAT_JSON, text.data(), size, &size), "rw_scene_explain");
+    const nlohmann::json seen = nlohmann::json::parse(text.c_str()).at("features");
+    SceneFeatures features;
+    for (const SceneFeature& feature : scene_features) features.*feature.value = seen.at(feature.name);
+    return features;
 }
 
 } // namespace
@@ -131,8 +144,7 @@ BuiltScene::BuiltScene(const workloads::Mesh& mesh, const char* structure, const
     check(rw_scene_get_statistics(scene, &statistics), "rw_scene_get_statistics");
     build_ns_ = statistics.build_ns;
     bytes_ = static_cast<double>(statistics.structure_bytes);
-    triangles_ =
-        static_cast<double>(statistics.triangle_count - statistics.degenerate_triangles - statistics.invalid_triangles);
+    features_ = features_of(scene);
 }
 
 BuiltView::BuiltView(const BuiltScene& scene, const ViewPlace& place, const char* structure, std::uint32_t threads) {
@@ -152,7 +164,7 @@ BuiltView::BuiltView(const BuiltScene& scene, const ViewPlace& place, const char
     check(rw_scene_view(scene.handle(), &options, &commit, &view), "rw_scene_view");
     scene_.reset(view);
 
-    triangles_ = scene.triangles();
+    features_ = scene.features();
     std::uint32_t count = 0;
     check(rw_scene_candidate_count(view, &count), "rw_scene_candidate_count");
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -1,6 +1,7 @@
 // The library as its users have it, through raywise.h: what is measured here is what they will wait for.
 #pragma once
 
+#include "model/scene_features.h"
 #include "rays/rays.h"
 #include "scenes/scenes.h"
 
@@ -48,7 +49,7 @@ class Built {
 public:
     double build_ns() const { return build_ns_; } // as the library timed it, in wall time
     double bytes() const { return bytes_; }
-    double triangles() const { return triangles_; } // that can be hit
+    const SceneFeatures& features() const { return features_; } // as the library saw them
 
     // Answers all; any_hit: only whether there is a hit.
     void ask(const RaySelection& selection, bool any_hit, std::uint32_t threads);
@@ -59,7 +60,7 @@ protected:
     Handle<rw_scene> scene_;
     double build_ns_ = 0.0;
     double bytes_ = 0.0;
-    double triangles_ = 0.0;
+    SceneFeatures features_;
 
 private:
     std::vector<float> t_;

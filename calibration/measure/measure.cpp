@@ -3,7 +3,7 @@
 #include "base/structure.h"
 #include "measure/exact_test.h"
 #include "measure/library.h"
-#include "model/cost_functions.h"
+#include "model/cost_units.h"
 #include "model/workload.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ private:
     }
 
     void note_build(Structure structure, const Timing& timing, const Built& built) {
-        result_.measurements.builds.push_back({structure, built.triangles(), timing.ns, built.bytes()});
+        result_.measurements.builds.push_back({structure, built.features(), timing.ns, built.bytes()});
         note_spread(timing);
     }
 
@@ -164,7 +164,7 @@ private:
         for (const Structure structure : all_structures()) {
             const std::size_t i = static_cast<std::size_t>(structure);
             result_.measurements.rays.push_back(
-                {structure, kind, asked(structure, kind).triangles(), timings[i].ns / counts[i]});
+                {structure, kind, asked(structure, kind).features(), timings[i].ns / counts[i]});
             note_spread(timings[i]);
         }
     }

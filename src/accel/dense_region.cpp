@@ -10,16 +10,16 @@ namespace {
 
 constexpr std::uint32_t most_sampled = 256;
 
-std::vector<Vec3> sampled_middles(const Primitives& primitives) {
-    std::vector<Vec3> middles;
+std::vector<Box> sampled_boxes(const Primitives& primitives) {
+    std::vector<Box> boxes;
     const std::uint32_t count = primitives.count();
     const std::uint32_t sampled = std::min(count, most_sampled);
-    middles.reserve(sampled);
+    boxes.reserve(sampled);
     for (std::uint32_t i = 0; i < sampled; ++i) {
         const auto primitive = static_cast<std::uint32_t>(std::uint64_t{count} * i / sampled);
-        if (primitives.is_hittable(primitive)) middles.push_back(primitives.box(primitive).center());
+        if (primitives.is_hittable(primitive)) boxes.push_back(primitives.box(primitive));
     }
-    return middles;
+    return boxes;
 }
 
 double at_rank(std::vector<double>& values, std::size_t rank) {
@@ -31,23 +31,26 @@ double at_rank(std::vector<double>& values, std::size_t rank) {
 } // namespace
 
 DenseRegion dense_region(const Primitives& primitives) {
-    const std::vector<Vec3> middles = sampled_middles(primitives);
+    const std::vector<Box> boxes = sampled_boxes(primitives);
     DenseRegion region;
-    if (middles.empty()) {
+    if (boxes.empty()) {
         if (primitives.bounds().empty()) return region;
         region.center = primitives.bounds().center();
         region.radius = max_component(primitives.bounds().size());
+        region.extent = primitives.largest_extent();
         return region;
     }
-    const std::size_t n = middles.size();
+    const std::size_t n = boxes.size();
     std::vector<double> values(n);
     for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < n; ++i) values[i] = middles[i][axis];
+        for (std::size_t i = 0; i < n; ++i) values[i] = boxes[i].center()[axis];
         const double median = at_rank(values, n / 2);
         region.center[axis] = median;
         region.radius =
             std::max({region.radius, median - at_rank(values, n / 10), at_rank(values, n - 1 - n / 10) - median});
     }
+    for (std::size_t i = 0; i < n; ++i) values[i] = max_component(boxes[i].size());
+    region.extent = at_rank(values, n / 2);
     return region;
 }
 
@@ -60,11 +63,14 @@ double SceneExtent::near_distance(const Vec3& point) const {
 }
 
 SceneExtent scene_extent(const Primitives& primitives) {
-    return {primitives.bounds(), primitives.largest_extent(), sampled_middles(primitives)};
+    SceneExtent extent{primitives.bounds(), primitives.largest_extent(), {}};
+    for (const Box& box : sampled_boxes(primitives)) extent.middles.push_back(box.center());
+    return extent;
 }
 
-SceneFrame scene_frame(const Primitives& primitives) {
-    const DenseRegion dense = dense_region(primitives);
+SceneFrame scene_frame(const Primitives& primitives) { return scene_frame(primitives, dense_region(primitives)); }
+
+SceneFrame scene_frame(const Primitives& primitives, const DenseRegion& dense) {
     const Vec3 center = SceneFrame::choose_center(dense.center, dense.radius);
     // Where the center is not the median, most triangles lie within this of it.
     const double radius = dense.radius + max_component(magnitudes(dense.center - center));

@@ -8,10 +8,12 @@
 
 namespace raywise {
 
-// The median of the triangles' middles along each axis, and how far around it four fifths of them lie, along any axis.
+// The median of the triangles' middles along each axis, how far around it four fifths of them lie, along any axis, and the median of their
+// largest extents.
 struct DenseRegion {
     Vec3 center{0.0};
     double radius = 0.0;
+    double extent = 0.0;
 };
 
 // Of a sample of the primitives that can be hit; some microseconds.
@@ -28,7 +30,8 @@ struct SceneExtent {
 };
 SceneExtent scene_extent(const Primitives& primitives);
 
-// The frame of a scene in which something can be hit.
+// The frame of a scene in which something can be hit. dense: its dense region.
+SceneFrame scene_frame(const Primitives& primitives, const DenseRegion& dense);
 SceneFrame scene_frame(const Primitives& primitives);
 
 } // namespace raywise

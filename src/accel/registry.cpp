@@ -1,6 +1,7 @@
 // From a structure's name to its class: the one place that includes them all.
 #include "accel/accel.h"
 #include "accel/bvh/bvh.h"
+#include "accel/bvh/bvh_morton.h"
 #include "accel/bvh/bvh_quality.h"
 #include "accel/grid/uniform_grid.h"
 #include "accel/kdtree/kd_tree.h"

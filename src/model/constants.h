@@ -3,24 +3,32 @@
 #pragma once
 
 #include "base/structure.h"
+#include "model/cost_units.h"
 #include "model/workload.h"
 
 #include <array>
+#include <cstddef>
 
 namespace raywise {
 
-// cost = fixed + per_unit * unit(N); which unit a structure uses is said in cost_functions.cpp.
-struct CostLine {
+// cost = fixed + the sum of per_unit[i] * unit i; which units a structure's cost has is said in cost_units.cpp.
+struct LinearCost {
     double fixed = 0.0;
-    double per_unit = 0.0;
-    double residual = 0.0; // root mean square of the relative misfit over the calibration scenes
+    std::array<double, most_cost_units> per_unit{}; // zero beyond the units there are
+    double residual = 0.0; // root mean square of the logarithm of predicted over measured, over the calibration scenes
+
+    double at(const CostUnits& units, const SceneFeatures& features) const {
+        double cost = fixed;
+        for (std::size_t i = 0; i < units.size(); ++i) cost += per_unit[i] * units[i].of(features);
+        return cost;
+    }
 };
 
 struct StructureConstants {
-    CostLine build_ns;
-    std::array<CostLine, measured_ray_kinds.size()>
-        ray_ns;     // per ray; shadow rays ask for any hit, the others for the closest
-    CostLine bytes; // unit: triangles
+    LinearCost build_ns;
+    // Per ray; shadow rays ask for any hit, the others for the closest.
+    std::array<LinearCost, measured_ray_kinds.size()> ray_ns;
+    LinearCost bytes;
 };
 
 // Hapala, Karlik, Havran 2011, eq. 7 and 8: means over the calibration scenes of the hierarchy's (kd-tree's) build time
@@ -39,7 +47,7 @@ struct MachineConstants {
 
 // Changes only when kernels or builders change so much that old measurements mislead, or when a structure joins the list,
 // of which older files know nothing.
-// 2: eight-wide bvh, gathered linear scan, batches in order. 3: bvh_quality.
-inline constexpr unsigned calibration_epoch = 3;
+// 2: eight-wide bvh, gathered linear scan, batches in order. 3: bvh_quality. 4: bvh_morton and features.
+inline constexpr unsigned calibration_epoch = 4;
 
 } // namespace raywise

@@ -1,8 +1,9 @@
-// What a structure will cost: build, ray and bytes as functions of the scene. One line per structure in
-// cost_functions.cpp.
+// What a structure will cost: build, ray and bytes as functions of the scene's features.
 #pragma once
 
 #include "model/constants.h"
+#include "model/cost_units.h"
+#include "model/scene_features.h"
 #include "model/workload.h"
 
 namespace raywise {
@@ -16,18 +17,12 @@ struct Cost {
     double total_ns(double rays) const { return build_ns + rays * ray_ns; }
 };
 
-// The quantity a structure's build and ray time grow with: N, N log2 N, log2 N, N^(1/3) ... of N >= 0 triangles.
-// Calibration fits its lines over the same functions.
-double build_unit(Structure structure, double triangles);
-double ray_unit(Structure structure, double triangles);
-const char* build_unit_name(Structure structure);
-const char* ray_unit_name(Structure structure);
-
-// Whether the structure needs a view to differ from another candidate; without one it is no candidate.
-bool needs_view(Structure structure);
-
 // The same scan when it reads the caller's arrays: it builds nothing, and each ray gathers the triangles on its way.
 Cost scan_in_place(const MachineConstants& constants, const Cost& gathered);
+
+// The same structure within so many bytes, where it shrinks and they suffice; else it stays as it is. Cells of a grid are fewer then, and what
+// each holds, which is what a ray's time goes into, grows as they do.
+Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes);
 
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload);

@@ -17,7 +17,7 @@ struct Candidate {
 };
 
 // The index of the eligible candidate with the smallest total for so many rays; the earlier of equals. With an unknown
-// number of rays: the one whose worst ratio to the best total, over 1, 10, ... 10^8 rays, is smallest.
+// number of rays: the one whose worst ratio to the best total, over 100, 1,000, ... 10^8 rays, is smallest.
 // Empty when none is eligible.
 std::optional<std::size_t> decide(const std::vector<Candidate>& candidates, std::optional<std::uint64_t> rays);
 

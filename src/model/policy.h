@@ -13,6 +13,9 @@ namespace raywise {
 
 // Builds.
 
+// How many triangles to look at before a structure is chosen; 0: none, so few rays are coming that a look costs more than it saves.
+std::uint32_t triangles_to_look_at(std::uint64_t triangles, const Workload& workload);
+
 // Whether so many rays pay for what a linear scan makes ready for them, the triangles in blocks. Fewer read the caller's arrays.
 bool worth_gathering(const Workload& workload);
 

@@ -1,16 +1,18 @@
-// The profile's file format, "raywise-profile/1": JSON, every member required, none besides.
-#include "model/cost_functions.h"
+// The profile's file format, "raywise-profile/2": JSON, every member required, none besides.
+#include "model/cost_units.h"
 #include "model/json_reader.h"
 #include "model/json_writer.h"
 #include "model/profile.h"
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace raywise {
 namespace {
 
-constexpr const char* schema = "raywise-profile/1";
+constexpr const char* schema = "raywise-profile/2";
 
 // What is believed at most. Ten thousand seconds for something that costs the same for every scene, a second per
 // triangle or ray: slower than any machine by orders of magnitude, and far from overflow in any sum.
@@ -24,47 +26,51 @@ constexpr double most_seconds = 1e7;   // spent on measuring: four months
 constexpr std::uint64_t most_cache_bytes = std::uint64_t{1} << 40;
 constexpr std::uint64_t most_threads = 1u << 20;
 
-void write_line(JsonWriter& json, const char* name, const CostLine& line, const char* unit) {
+void write_cost(JsonWriter& json, const char* name, const LinearCost& cost, const CostUnits& units) {
     json.open_object(name);
-    json.put("fixed", line.fixed);
-    json.put("per_unit", line.per_unit);
-    json.put("unit", unit);
-    json.put("residual", line.residual);
+    json.put("fixed", cost.fixed);
+    json.open_object("per_unit");
+    for (std::size_t i = 0; i < units.size(); ++i) json.put(units[i].name, cost.per_unit[i]);
+    json.close_object();
+    json.put("residual", cost.residual);
     json.close_object();
 }
 
-struct LineLimits {
+struct CostLimits {
     double fixed;
     double per_unit;
     bool may_be_zero; // a structure may take no memory, but nothing takes no time
 };
-constexpr LineLimits time_limits{most_fixed_ns, most_ns_per_unit, false};
-constexpr LineLimits byte_limits{most_fixed_bytes, most_bytes_per_triangle, true};
+constexpr CostLimits time_limits{most_fixed_ns, most_ns_per_unit, false};
+constexpr CostLimits byte_limits{most_fixed_bytes, most_bytes_per_triangle, true};
 
-CostLine parse_line(const JsonValue& value, const char* unit, const LineLimits& limits) {
-    value.expect_members({"fixed", "per_unit", "unit", "residual"});
-    CostLine line;
-    line.fixed = value["fixed"].number(0.0, limits.fixed);
-    line.per_unit = value["per_unit"].number(0.0, limits.per_unit);
-    line.residual = value["residual"].number(0.0, most_residual);
-    if (value["unit"].text() != unit) {
-        value["unit"].refuse(Status::PROFILE_MALFORMED, std::string("has to be \"") + unit + "\"");
+LinearCost parse_cost(const JsonValue& value, const CostUnits& units, const CostLimits& limits) {
+    value.expect_members({"fixed", "per_unit", "residual"});
+    LinearCost cost;
+    cost.fixed = value["fixed"].number(0.0, limits.fixed);
+    const JsonValue per_unit = value["per_unit"];
+    std::vector<std::string> names;
+    for (const CostUnit& unit : units) names.emplace_back(unit.name);
+    per_unit.expect_members(names);
+    bool is_zero = cost.fixed <= 0.0;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        cost.per_unit[i] = per_unit[units[i].name].number(0.0, limits.per_unit);
+        is_zero = is_zero && cost.per_unit[i] <= 0.0;
     }
-    if (line.fixed <= 0.0 && line.per_unit <= 0.0 && !limits.may_be_zero) {
-        value.refuse(Status::PROFILE_RANGE, "fixed and per_unit are both zero");
-    }
-    return line;
+    cost.residual = value["residual"].number(0.0, most_residual);
+    if (is_zero && !limits.may_be_zero) value.refuse(Status::PROFILE_RANGE, "fixed and per_unit are all zero");
+    return cost;
 }
 
 StructureConstants parse_structure(const JsonValue& value, Structure structure) {
     value.expect_members({"build_ns", "ray_ns", "bytes"});
     StructureConstants constants;
-    constants.build_ns = parse_line(value["build_ns"], build_unit_name(structure), time_limits);
-    constants.bytes = parse_line(value["bytes"], "N", byte_limits);
+    constants.build_ns = parse_cost(value["build_ns"], build_units(structure), time_limits);
+    constants.bytes = parse_cost(value["bytes"], byte_units(structure), byte_limits);
     const JsonValue rays = value["ray_ns"];
     rays.expect_members({measured_ray_kind_names.begin(), measured_ray_kind_names.end()});
     for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
-        constants.ray_ns[kind] = parse_line(rays[measured_ray_kind_names[kind]], ray_unit_name(structure), time_limits);
+        constants.ray_ns[kind] = parse_cost(rays[measured_ray_kind_names[kind]], ray_units(structure), time_limits);
     }
     return constants;
 }
@@ -146,13 +152,13 @@ std::string to_json(const Profile& profile) {
     for (const Structure structure : all_structures()) {
         const StructureConstants& lines = constants.structures[structure];
         json.open_object(name_of(structure));
-        write_line(json, "build_ns", lines.build_ns, build_unit_name(structure));
+        write_cost(json, "build_ns", lines.build_ns, build_units(structure));
         json.open_object("ray_ns");
         for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
-            write_line(json, measured_ray_kind_names[kind], lines.ray_ns[kind], ray_unit_name(structure));
+            write_cost(json, measured_ray_kind_names[kind], lines.ray_ns[kind], ray_units(structure));
         }
         json.close_object();
-        write_line(json, "bytes", lines.bytes, "N");
+        write_cost(json, "bytes", lines.bytes, byte_units(structure));
         json.close_object();
     }
     json.close_object();

@@ -1,7 +1,7 @@
 // A profile as a table for people, at most 100 columns wide as far as words can be broken.
 #include "base/format.h"
 #include "base/words.h"
-#include "model/cost_functions.h"
+#include "model/cost_units.h"
 #include "model/profile.h"
 
 #include <string_view>
@@ -37,10 +37,14 @@ std::string cache_text(std::uint64_t bytes) {
     return format("%g KiB", static_cast<double>(bytes) / (1 << 10));
 }
 
-std::string row(const char* structure, const std::string& cost, const CostLine& line, const char* quantity,
-                const char* unit) {
-    return format("%-14s %-12s %14.6g %s %14.6g %s %-8s %9.0f %%\n", structure, cost.c_str(), line.fixed, quantity,
-                  line.per_unit, quantity, unit, line.residual * 100.0);
+// "build       1234.5 ns + 12.3 N + 4.5 references", and the misfit.
+std::string row(const char* structure, const std::string& cost, const LinearCost& constants, const char* quantity,
+                const CostUnits& units) {
+    std::string sum = format("%.3g %s", constants.fixed, quantity);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        if (constants.per_unit[i] != 0.0) sum += format(" + %.3g ", constants.per_unit[i]) + units[i].name;
+    }
+    return format("%-13s %-11s %-66s %4.0f %%\n", structure, cost.c_str(), sum.c_str(), constants.residual * 100.0);
 }
 
 } // namespace
@@ -81,16 +85,19 @@ std::string to_text(const Profile& profile) {
     text += paragraph("by", provenance.tool + ", epoch " + std::to_string(profile.epoch));
     text += paragraph("command", provenance.command);
 
-    text += "\ncost = fixed + per unit * unit(N) for N triangles, on one thread; misfit: root mean square\n\n";
-    text += format("%-14s %-12s %17s %17s %-8s %11s\n", "structure", "cost", "fixed", "per unit", "unit", "misfit");
+    text +=
+        "\nOn one thread; misfit: root mean square. N: triangles; boxes, cells, filled: boxes of triangles and\n"
+        "(filled) cells that a line meets; crowding: triangles around one; references: cells that triangles\n"
+        "reach into, counted for each; far levels: log2 N beyond 15.\n\n";
+    text += format("%-13s %-11s %-66s %6s\n", "structure", "cost", "of a scene", "misfit");
     for (const Structure structure : all_structures()) {
-        const StructureConstants& lines = constants.structures[structure];
-        text += row(name_of(structure), "build", lines.build_ns, "ns", build_unit_name(structure));
+        const StructureConstants& costs = constants.structures[structure];
+        text += row(name_of(structure), "build", costs.build_ns, "ns", build_units(structure));
         for (std::size_t kind = 0; kind < measured_ray_kinds.size(); ++kind) {
-            text += row("", std::string("ray ") + measured_ray_kind_names[kind], lines.ray_ns[kind], "ns",
-                        ray_unit_name(structure));
+            text += row("", std::string("ray ") + measured_ray_kind_names[kind], costs.ray_ns[kind], "ns",
+                        ray_units(structure));
         }
-        text += row("", "memory", lines.bytes, "B ", "N");
+        text += row("", "memory", costs.bytes, "B", byte_units(structure));
     }
     text += "\n";
     text += format("%-44s %12.6g ns\n", "one triangle test", constants.primitive_test_ns);

@@ -1,4 +1,4 @@
-// What a scene will be asked, and what it consists of, as far as costs depend on it.
+// What a scene will be asked, as far as costs depend on it.
 #pragma once
 
 #include <array>
@@ -27,10 +27,6 @@ inline constexpr std::size_t ray_kind_index(RayKind kind) {
 struct Workload {
     std::optional<std::uint64_t> rays; // empty: unknown
     RayKind kind = RayKind::any;
-};
-
-struct SceneFeatures {
-    std::uint64_t triangles = 0; // that can be hit
 };
 
 } // namespace raywise

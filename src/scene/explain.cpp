@@ -68,6 +68,10 @@ std::string explain_text(const Plan& plan, const Tracer& tracer, const Profile& 
                    effort_names[static_cast<int>(plan.effort)], rule_names[static_cast<int>(plan.rule)]);
     const char* const precision = precision_of(tracer.primitives());
     if (precision != nullptr) text += std::string("vertices: ") + precision + "\n";
+    const SceneFeatures& seen = plan.features;
+    text += format("a line through the scene: %.3g boxes of triangles, %.3g cells of a grid, %.3g of them filled\n",
+                   seen.boxes, seen.cells, seen.filled);
+    text += format("a triangle: in %.3g cells, %.3g triangles in one\n", seen.references, seen.crowding);
     text += std::string("calibration: ") + source_names[static_cast<int>(profile.source)] + ", measured " +
             profile.provenance.date + "\n";
     if (!profile.path.empty()) text += "profile: " + profile.path + "\n"; // of any length
@@ -124,6 +128,10 @@ std::string explain_json(const Plan& plan, const Tracer& tracer, const Profile& 
     json.put("ray_kind", kind_names[static_cast<int>(plan.workload.kind)]);
     json.put("effort", effort_names[static_cast<int>(plan.effort)]);
     json.put("rule", rule_names[static_cast<int>(plan.rule)]);
+
+    json.open_object("features");
+    for (const SceneFeature& feature : scene_features) json.put(feature.name, plan.features.*feature.value);
+    json.close_object();
 
     json.open_object("calibration");
     json.put("source", source_names[static_cast<int>(profile.source)]);

@@ -1,6 +1,7 @@
 #include "scene/planner.h"
 
 #include "model/policy.h"
+#include "scene/look.h"
 #include "scene/sample_rays.h"
 
 #include <algorithm>
@@ -57,13 +58,20 @@ private:
     bool is_ready(Structure structure) const { return request_.ready == structure; }
 
     void predict_all() {
-        const SceneFeatures features{request_.primitives->hittable_count()};
+        const Primitives& primitives = *request_.primitives;
+        const std::uint32_t looked_at = triangles_to_look_at(primitives.count(), request_.workload);
+        plan_.features = look_at(primitives, looked_at);
         for (const Structure structure : all_structures()) {
             PlannedCandidate candidate;
             candidate.structure = structure;
-            candidate.predicted = raywise::predict(structure, request_.profile->constants, features, request_.workload);
+            candidate.predicted =
+                raywise::predict(structure, request_.profile->constants, plan_.features, request_.workload);
             if (structure == Structure::linear_scan && exceeds_limit(candidate.predicted.bytes))
                 candidate.predicted = scan_in_place(request_.profile->constants, candidate.predicted);
+            if (request_.memory_limit != 0) {
+                candidate.predicted =
+                    within(structure, candidate.predicted, plan_.features, static_cast<double>(request_.memory_limit));
+            }
             if (is_ready(structure)) {
                 candidate.predicted.build_ns = 0.0;
                 candidate.predicted.bytes = 0.0;
@@ -142,6 +150,7 @@ private:
             return false;
         }
         plan_.candidates = before.plan.candidates;
+        plan_.features = before.plan.features;
         plan_.hapala = before.plan.hapala;
         const Structure structure = before.plan.chosen;
         PlannedCandidate& candidate = plan_.candidate(structure);

@@ -79,6 +79,7 @@ struct Plan {
     Structure chosen = Structure::linear_scan;
     bool forced = false;
     Workload workload;
+    SceneFeatures features; // that the predictions are made of
     Effort effort = Effort::estimate;
     Rule rule = Rule::smallest_total;
     std::optional<HapalaDecision> hapala;

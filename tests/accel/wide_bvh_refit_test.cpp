@@ -2,14 +2,12 @@
 
 #include "accel/bvh/bvh.h"
 #include "accel/bvh/bvh_quality.h"
-#include "accel/bvh/write.h"
 #include "accel/bvh_testing.h"
 #include "accel/sticks_testing.h"
+#include "accel/wide_bvh_testing.h"
 
 #include <atomic>
-#include <cstring>
 #include <functional>
-#include <set>
 
 namespace raywise {
 namespace {
@@ -57,72 +55,12 @@ std::unique_ptr<const Accel> refitted(const Accel& accel, Scene& scene) {
 
 const WideBvh& tree_of(const Accel& accel) { return dynamic_cast<const Bvh&>(accel).tree(); }
 
-// Every hittable triangle with its coordinates in a leaf, boxes around what is in them, tight.
-void expect_sound(const WideBvh& tree, const Primitives& primitives) {
-    std::multiset<std::uint32_t> found;
-    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
-        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-            const WideNode& node = tree.nodes[n];
-            if (is_empty_child(node, i)) continue;
-            WideNode expected;
-            const NodeRef child = node.child[i];
-            if (child.is_leaf()) {
-                Box box;
-                const auto read = [&](const auto& block) {
-                    for (std::uint32_t k = 0; k < block.n; ++k) {
-                        found.insert(block.id(k));
-                        EXPECT_EQ(block.corners(k), primitives.corners(block.id(k)));
-                        for (const Vec3& p : primitives.corners(block.id(k))) box.extend(p);
-                    }
-                };
-                if (tree.is_float64) {
-                    for_each_block<double>(tree, child, read);
-                } else {
-                    for_each_block<float>(tree, child, read);
-                }
-                Box relative = tree.frame.relative(box);
-                relative.lower *= tree.frame.scale();
-                relative.upper *= tree.frame.scale();
-                const BoxF rounded = round_outwards(relative);
-                const Vec3 lower(rounded.lower);
-                const Vec3 upper(rounded.upper);
-                set_leaf_box(expected, i, lower, upper, max_component(upper - lower));
-            } else {
-                ASSERT_GT(child.index(), n);
-                set_box_around(expected, i, tree.nodes[child.index()]);
-            }
-            for (int axis = 0; axis < 3; ++axis) {
-                ASSERT_EQ(node.planes[axis][0][i], expected.planes[axis][0][i]) << n;
-                ASSERT_EQ(node.planes[axis][1][i], expected.planes[axis][1][i]) << n;
-            }
-        }
-    }
-    ASSERT_EQ(std::set<std::uint32_t>(found.begin(), found.end()).size(), primitives.hittable_count());
-    for (const std::uint32_t primitive : found) ASSERT_TRUE(primitives.is_hittable(primitive));
-}
-
 void expect_same_answers(Scene& scene, const Triangles& triangles, const Accel& accel, unsigned seed, int rays = 80) {
     Random random(seed);
     int hits = 0;
     for (int i = 0; i < rays && !testing::Test::HasFailure(); ++i)
         hits += expect_same_with_intervals(scene, accel, any_ray(triangles, scene.bounds(), random)) ? 1 : 0;
     EXPECT_GT(hits, rays / 20) << "the rays have to test something";
-}
-
-void expect_same_tree(const WideBvh& a, const WideBvh& b) {
-    EXPECT_EQ(a.is_float64, b.is_float64);
-    ASSERT_EQ(a.nodes.size(), b.nodes.size());
-    ASSERT_EQ(a.blocks.size(), b.blocks.size());
-    for (std::size_t n = 0; n < a.nodes.size(); ++n) {
-        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                ASSERT_EQ(a.nodes[n].planes[axis][0][i], b.nodes[n].planes[axis][0][i]);
-                ASSERT_EQ(a.nodes[n].planes[axis][1][i], b.nodes[n].planes[axis][1][i]);
-            }
-        }
-        ASSERT_EQ(std::memcmp(a.nodes[n].child, b.nodes[n].child, sizeof a.nodes[n].child), 0);
-    }
-    EXPECT_EQ(std::memcmp(a.blocks.data(), b.blocks.data(), a.blocks.bytes()), 0);
 }
 
 TEST(WideBvhRefit, UnmovedIsTheSame) {

@@ -1,4 +1,5 @@
 #include "base/box.h"
+#include "base/lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,24 @@ TEST(Rounding, KeepsFloatsAsTheyAre) {
          {0.0f, 1.0f, -3.5f, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()}) {
         EXPECT_EQ(round_down(static_cast<double>(x)), x);
         EXPECT_EQ(round_up(static_cast<double>(x)), x);
+    }
+}
+
+TEST(Rounding, IsTheSameInLanes) {
+    constexpr double most = std::numeric_limits<float>::max();
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    std::mt19937_64 random(8);
+    std::uniform_real_distribution<double> exponent(-46.0, 38.0);
+    for (int i = 0; i < 100000; ++i) {
+        const double x = (random() & 1 ? 1.0 : -1.0) * std::pow(10.0, exponent(random));
+        const double special[] = {0.0, -0.0, most, -most, 0.5 * least, -0.5 * least, 1e-300, -1e-300};
+        const DoubleLanes all{x, special[i % 8], static_cast<double>(static_cast<float>(x)), -x};
+        const Lanes low = round_down(all);
+        const Lanes high = round_up(all);
+        for (int lane = 0; lane < 4; ++lane) {
+            ASSERT_EQ(low[lane], round_down(all[lane])) << all[lane];
+            ASSERT_EQ(high[lane], round_up(all[lane])) << all[lane];
+        }
     }
 }
 

@@ -54,6 +54,7 @@ double ns_per_ray(const Built& built, const RaySet& rays, Question question) {
 
 const char* const ours_forced = "raywise bvh";
 const char* const ours_quality = "raywise bvh_quality";
+const char* const ours_morton = "raywise bvh_morton";
 const char* const ours_chosen = "raywise";
 
 Effort effort_of(const Options& options) {

@@ -18,6 +18,7 @@ namespace raywise::bench {
 // Names of raywise's rows in the table of subjects, which the summary asks for.
 extern const char* const ours_forced;  // bvh
 extern const char* const ours_quality; // bvh_quality, where the library has it
+extern const char* const ours_morton;  // bvh_morton, likewise
 extern const char* const ours_chosen;  // the library chooses
 
 struct Options {

@@ -18,7 +18,7 @@ struct Figure {
     std::vector<const char*> rays; // empty: all
     const char* query;             // nullptr: all
     const char* ours;
-    const char* peer; // beginning of its name after "Embree 3 "; nullptr: the best of all
+    const char* peer; // nullptr: the best of all
     bool robust;      // among peers that ask for watertight tests only
     unsigned threads; // 1, or 0: all there are
 };
@@ -38,9 +38,11 @@ const std::vector<Figure>& figures() {
         {"batch_coherent_shuffled", "batch", {"camera", "shadow"}, nullptr, "raywise bvh, shuffled", nullptr, false, 1},
         {"batch_incoherent_threads", "batch", {"random", "diffuse"}, nullptr, ours_forced, nullptr, false, 0},
         {"batch_coherent_threads", "batch", {"camera", "shadow"}, nullptr, ours_forced, nullptr, false, 0},
-        {"build_fast", "build", {}, nullptr, ours_forced, "MEDIUM", false, 1},
-        {"build_quality", "build", {}, nullptr, ours_quality, "HIGH", false, 1},
-        {"build_fast_threads", "build", {}, nullptr, ours_forced, "MEDIUM", false, 0},
+        {"build_fast", "build", {}, nullptr, ours_forced, "Embree 3 MEDIUM", false, 1},
+        {"build_quality", "build", {}, nullptr, ours_quality, "Embree 3 HIGH", false, 1},
+        {"morton_build", "build", {}, nullptr, ours_morton, "Embree 3 LOW", false, 1},
+        {"morton_rays", "single", {}, nullptr, ours_morton, ours_forced, false, 1},
+        {"build_fast_threads", "build", {}, nullptr, ours_forced, "Embree 3 MEDIUM", false, 0},
     };
     return all;
 }
@@ -54,7 +56,7 @@ nlohmann::ordered_json ratios(const Session& session, const Figure& figure) {
             continue;
         const Value* const ours = cell.of(figure.ours);
         const Value* const peer =
-            figure.peer != nullptr ? cell.of(std::string("Embree 3 ") + figure.peer)
+            figure.peer != nullptr ? cell.of(figure.peer)
                                    : cell.best_peer([&](const Value& value) { return value.robust || !figure.robust; });
         if (ours == nullptr || peer == nullptr) continue;
         ratios.add(cell.ratio(*ours, *peer), cell.rays.empty() ? cell.scene : cell.scene + ", " + cell.rays);

@@ -59,7 +59,7 @@ expect 0 show
 printed "generic constants"
 narrow
 expect 0 show --json
-printed "raywise-profile/1"
+printed "raywise-profile/2"
 expect 1 check
 printed "no valid profile"
 expect 1 check "$FOLDER/missing.json"
@@ -73,6 +73,7 @@ printed "Saved $FOLDER/profile.json"
 expect 0 show "$FOLDER/profile.json"
 printed "projected_bvh"
 printed "bvh_quality"
+printed "bvh_morton"
 narrow
 expect 0 show "$FOLDER/profile.json" --json
 cmp -s "$FOLDER/out" "$FOLDER/profile.json" || fail "show --json differs from the file"

@@ -142,7 +142,8 @@ void throwing(const soup& s, const rw_scene* expected) {
 }
 
 void parallel_builds(const soup& s, const rw_scene* expected) {
-    for (const char* name : {"linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality"}) {
+    for (const char* name :
+         {"linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality", "bvh_morton"}) {
         for (const rw_parallel_for loop : {in_order, backwards, in_threads}) {
             rw_commit_options options{};
             options.struct_size = sizeof options;

@@ -37,7 +37,7 @@ static const struct change {
     int32_t status;
     const char *parts;
 } changes[] = {
-    {"raywise-profile/1", "raywise-profile/2", RW_PROFILE_SCHEMA, "schema|raywise-profile/1"},
+    {"raywise-profile/2", "raywise-profile/1", RW_PROFILE_SCHEMA, "schema|raywise-profile/2"},
     {"\"epoch\": ", "\"epoch\": 9", RW_PROFILE_EPOCH, "epoch"},
     {"\"vendor\": \"", "\"vendor\": \"another ", RW_PROFILE_MACHINE, "machine.vendor|another|this machine"},
     {"\"vendor\"", "\"seller\"", RW_PROFILE_MALFORMED, "machine.vendor|missing"},
@@ -50,7 +50,7 @@ static const struct change {
     {"\"fixed\": ", "\"fixed\": -1", RW_PROFILE_RANGE, "structures.linear_scan.build_ns.fixed|between"},
     {"\"fixed\": ", "\"fixed\": 1e999", RW_PROFILE_RANGE, "number"},
     {"\"fixed\": ", "\"fixed\": \"1\"", RW_PROFILE_MALFORMED, "structures.linear_scan.build_ns.fixed|number"},
-    {"\"unit\": \"N\"", "\"unit\": \"M\"", RW_PROFILE_MALFORMED, "structures.linear_scan.build_ns.unit|\"N\""},
+    {"\"N\": ", "\"M\": 1", RW_PROFILE_MALFORMED, "structures.linear_scan.build_ns.per_unit|unexpected member|M"},
     {"\"date\": \"", "\"date\": \"\\u0007", RW_PROFILE_MALFORMED, "date|control character"},
     {"\"machine\": {", "\"machine\": [[[[[[[[[1]]]]]]]]], \"old\": {", RW_PROFILE_MALFORMED, "nested"},
 };
@@ -69,10 +69,9 @@ static void changed_members(void) {
     {
         /* What costs nothing at all is not believed: both constants of a time are zero. */
         char both[256];
-        const char *fixed = strstr(text, "\"fixed\": "), *unit = strstr(text, "\"unit\": ");
-        while (unit[-1] == ' ') --unit;
-        snprintf(both, sizeof both, "%.*s", (int)(unit - fixed), fixed);
-        refused(file_with("p.json", with(both, "\"fixed\": 0, \"per_unit\": 0, ")), RW_PROFILE_RANGE,
+        const char *fixed = strstr(text, "\"fixed\": "), *end = strchr(fixed, '}');
+        snprintf(both, sizeof both, "%.*s", (int)(end - fixed), fixed);
+        refused(file_with("p.json", with(both, "\"fixed\": 0, \"per_unit\": {\"N\": 0")), RW_PROFILE_RANGE,
                 "structures.linear_scan.build_ns|zero");
     }
 }

@@ -37,8 +37,8 @@ std::string text_of(const Call& call) {
 void structures() {
     uint32_t count = 0;
     NEED_OK(rw_structure_count(&count));
-    const std::vector<std::string> wanted = {"linear_scan", "uniform_grid",  "kd_tree",
-                                             "bvh",         "projected_bvh", "bvh_quality"};
+    const std::vector<std::string> wanted = {"linear_scan",   "uniform_grid", "kd_tree",   "bvh",
+                                             "projected_bvh", "bvh_quality",  "bvh_morton"};
     CHECK(count == wanted.size());
     for (uint32_t i = 0; i < count; ++i) {
         const char* name = nullptr;
@@ -115,7 +115,7 @@ void statistics_and_bounds() {
 
 void empty_scenes() {
     for (const char* name : {"linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality",
-                             static_cast<const char*>(nullptr)}) {
+                             "bvh_morton", static_cast<const char*>(nullptr)}) {
         for (const bool with_mesh : {false, true}) {
             rw_scene* scene = nullptr;
             NEED_OK(rw_scene_create(nullptr, &scene));

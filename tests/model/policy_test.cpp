@@ -25,6 +25,15 @@ TEST(Policy, GathersFromEightRaysOnAndWhenTheirNumberIsNotKnown) {
     EXPECT_TRUE(worth_gathering({std::nullopt, RayKind::any}));
 }
 
+TEST(Policy, LooksAtAPartOfTheTrianglesAndAtNoneForFewRays) {
+    EXPECT_EQ(triangles_to_look_at(1'000'000, {31, RayKind::any}), 0u);
+    EXPECT_EQ(triangles_to_look_at(1'000'000, {32, RayKind::any}), 2048u);
+    EXPECT_EQ(triangles_to_look_at(100'000, {std::nullopt, RayKind::any}), 781u);
+    EXPECT_EQ(triangles_to_look_at(1000, {1000, RayKind::any}), 128u);
+    EXPECT_EQ(triangles_to_look_at(12, {1000, RayKind::any}), 12u);
+    EXPECT_EQ(triangles_to_look_at(0, {1000, RayKind::any}), 0u);
+}
+
 TEST(Policy, BuildsSmallScenesOnTheCallersThread) {
     EXPECT_FALSE(worth_build_threads(0));
     EXPECT_FALSE(worth_build_threads(1023));

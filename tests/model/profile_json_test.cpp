@@ -156,7 +156,7 @@ TEST(ProfileJson, NothingTakesNoTime) {
         json document = valid();
         document[place]["fixed"] = 0.0;
         EXPECT_EQ(status_of(document), Status::OK) << place;
-        document[place]["per_unit"] = 0.0;
+        for (auto& part : document[place]["per_unit"]) part = 0.0;
         // Memory is another matter.
         EXPECT_EQ(status_of(document), place.back() == "bytes" ? Status::OK : Status::PROFILE_RANGE) << place;
     }
@@ -168,18 +168,29 @@ TEST(ProfileJson, NothingTakesNoTime) {
     }
 }
 
-TEST(ProfileJson, UnitsAreThoseOfTheCostFunctions) {
+TEST(ProfileJson, UnitsAreThoseOfTheStructure) {
+    for (const Structure structure : all_structures()) {
+        const json& costs = valid()["structures"][name_of(structure)];
+        const auto expect_units = [&](const json& cost, const CostUnits& units) {
+            EXPECT_EQ(cost["per_unit"].size(), units.size());
+            for (const CostUnit& unit : units) EXPECT_TRUE(cost["per_unit"].contains(unit.name)) << unit.name;
+        };
+        expect_units(costs["build_ns"], build_units(structure));
+        expect_units(costs["bytes"], byte_units(structure));
+        for (const char* kind : measured_ray_kind_names) expect_units(costs["ray_ns"][kind], ray_units(structure));
+    }
     json document = valid();
-    document["structures"]["bvh"]["build_ns"]["unit"] = "N";
+    json& per_unit = document["structures"]["linear_scan"]["build_ns"]["per_unit"];
+    per_unit["M"] = per_unit["N"];
+    per_unit.erase("N");
     std::string message;
     EXPECT_EQ(status_of(document, &message), Status::PROFILE_MALFORMED);
-    EXPECT_NE(message.find("structures.bvh.build_ns.unit: has to be \"N log2 N\"; it is \"N\""), std::string::npos)
-        << message;
+    EXPECT_NE(message.find("structures.linear_scan.build_ns.per_unit"), std::string::npos) << message;
 }
 
 TEST(ProfileJson, AnotherSchemaIsToldFirst) {
     json document = valid();
-    document["schema"] = "raywise-profile/2";
+    document["schema"] = "raywise-profile/1";
     document.erase("structures");
     document["epoch"] = 99;
     std::string message;
@@ -216,7 +227,7 @@ TEST(ProfileJson, ADamagedByteNeverGetsFurtherThanAStatus) {
 }
 
 TEST(ProfileJson, OtherTextsAreMalformed) {
-    for (const char* text : {"", " ", "null", "7", "\"raywise-profile/1\"", "[]", "{}", "{} {}", "// comment\n{}",
+    for (const char* text : {"", " ", "null", "7", "\"raywise-profile/2\"", "[]", "{}", "{} {}", "// comment\n{}",
                              "{\"schema\":", "\xEF\xBB\xBF", "\xFF\xFE", "{\"schema\": \"\xFF\"}", "<xml/>"}) {
         EXPECT_EQ(status_of(std::string(text)), Status::PROFILE_MALFORMED) << text;
     }

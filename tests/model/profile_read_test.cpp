@@ -115,7 +115,7 @@ TEST_F(LoadProfile, TellsTheMemberThatIsWrong) {
 
 TEST_F(LoadProfile, RefusesAnotherSchemaAndEpoch) {
     std::string text = good_;
-    text.replace(text.find("raywise-profile/1"), 17, "raywise-profile/9");
+    text.replace(text.find("raywise-profile/2"), 17, "raywise-profile/9");
     expect_generic(load_profile(folder_.write("schema", text)), Status::PROFILE_SCHEMA, "raywise-profile/9");
     Profile old = sample_profile();
     old.epoch = calibration_epoch + 7;

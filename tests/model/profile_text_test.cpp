@@ -20,7 +20,7 @@ TEST(ProfileText, FitsHundredColumnsAndNamesEverything) {
     for (const char* name : structure_names) EXPECT_NE(text.find(name), std::string::npos) << name;
     for (const char* name : measured_ray_kind_names) EXPECT_NE(text.find(name), std::string::npos) << name;
     for (const char* word : {"eq. 7", "eq. 8", "61.5", "47.25", "11.5", "4.75", "passed over", "2026-11-22T10:20:30Z",
-                             "raywise-calibrate test", "N log2 N", "N^(1/3)"}) {
+                             "raywise-calibrate test", "N log2 N", "log2 N", "crowding"}) {
         EXPECT_NE(text.find(word), std::string::npos) << word;
     }
 }

@@ -42,6 +42,9 @@ TEST(Explain, JsonSaysWhatThePlanSays) {
     EXPECT_EQ(json.at("triangles"), 1000);
     EXPECT_EQ(json.at("vertices"), "float32");
     EXPECT_EQ(json.at("chosen"), name_of(scene->plan().chosen));
+    EXPECT_EQ(json.at("features").size(), scene_features.size());
+    for (const SceneFeature& feature : scene_features)
+        EXPECT_EQ(json.at("features").at(feature.name), scene->plan().features.*feature.value) << feature.name;
     ASSERT_EQ(json.at("candidates").size(), structure_count);
     for (const Structure structure : all_structures()) {
         const auto& candidate = json.at("candidates")[static_cast<std::size_t>(structure)];

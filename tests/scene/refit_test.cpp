@@ -113,7 +113,7 @@ TEST(Refit, BuildsAnewWhereThatPaysForTheRaysExpected) {
 TEST(Refit, KeepsWhatWasChosenAndItsFigures) {
     const Soup soup = make_soup(500);
     const auto profile = make_profile([](MachineConstants& m) {
-        for (const Structure structure : all_structures()) m.structures[structure].build_ns = {1e5, 0.0, 0.0};
+        for (const Structure structure : all_structures()) m.structures[structure].build_ns.fixed = 1e5;
         m.structures[Structure::kd_tree].build_ns = {1e3, 0.0, 0.0};
     });
     const auto scene = make_scene(soup, profile, [](Scene& s) { s.set_expected({100, RayKind::random}, {}); });
@@ -152,9 +152,9 @@ TEST(Refit, DoesNotMeasureAgain) {
 TEST(Refit, ChoosesAnewWhenTheSceneHasGrownOrShrunkMoreThanTwofold) {
     const Soup soup = make_soup(2000);
     const auto profile = make_profile([](MachineConstants& m) {
-        for (const Structure structure : all_structures()) m.structures[structure].build_ns = {1e5, 0.0, 0.0};
+        for (const Structure structure : all_structures()) m.structures[structure].build_ns.fixed = 1e5;
         m.structures[Structure::linear_scan].build_ns = {};
-        for (CostLine& line : m.structures[Structure::linear_scan].ray_ns) line = {0.0, 10.0, 0.0};
+        for (LinearCost& ray : m.structures[Structure::linear_scan].ray_ns) ray.per_unit[0] = 10.0;
     });
     const auto scene = make_scene(collapsed(soup, 1999), profile, [](Scene& s) {
         s.set_expected({1000, RayKind::random}, {});
@@ -194,7 +194,7 @@ TEST(Refit, KeepsTheMemoryLimit) {
         EXPECT_NE(std::string(error.what()).find("uniform_grid"), std::string::npos) << error.what();
     }
     const auto profile = make_profile([](MachineConstants& m) {
-        for (const Structure structure : all_structures()) m.structures[structure].build_ns = {1e5, 0.0, 0.0};
+        for (const Structure structure : all_structures()) m.structures[structure].build_ns.fixed = 1e5;
         m.structures[Structure::uniform_grid].build_ns = {1e3, 0.0, 0.0};
     });
     const auto may = make_scene(small, profile, [&](Scene& s) {

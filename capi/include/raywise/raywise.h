@@ -450,8 +450,8 @@ typedef struct rw_query_options {
  * Returns: RW_OK. */
 RW_API int32_t rw_structure_count(uint32_t *count);
 
-/* Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality". Names stay,
- * and so does their order; more may follow.
+/* Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality",
+ * "bvh_morton". Names stay, and so does their order; more may follow.
  * index: below the count. name: receives a constant text.
  * Returns: RW_OK. */
 RW_API int32_t rw_structure_name(uint32_t index, const char **name);

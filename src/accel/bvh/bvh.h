@@ -1,5 +1,5 @@
 // The bounding volume hierarchy in the form rays are traced in: built as a binary tree, then widened to eight children.
-// BvhHigh (bvh_quality.h) is the same of another builder.
+// BvhHigh (bvh_quality.h) and BvhMorton (bvh_morton.h) are the same of other builders.
 #pragma once
 
 #include "accel/accel.h"
@@ -31,10 +31,9 @@ public:
 
 protected:
     Bvh(const BuildInput& input, BvhQuality quality);
-
-private:
     Bvh(const Primitives& primitives, WideBvh tree) : primitives_(primitives), tree_(std::move(tree)) {}
 
+private:
     const Primitives& primitives_;
     WideBvh tree_;
 };

@@ -10,7 +10,6 @@
 #include "ray/scene_frame.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -27,7 +26,9 @@ public:
     static NodeRef node(std::uint32_t index) { return NodeRef(index); }
     // distance: of the corners from the center, along any axis, in the scene's unit; kept as the next power of two above it.
     static NodeRef leaf(std::uint32_t first, std::uint32_t triangles, double distance) {
-        const int exponent = distance > 0.0 ? std::ilogb(distance) + 1 : least_exponent;
+        std::uint64_t bits; // ilogb and ldexp take longer than the rest of a leaf
+        std::memcpy(&bits, &distance, sizeof bits);
+        const int exponent = static_cast<int>(bits >> 52) - 1022;
         const auto biased = static_cast<std::uint64_t>(std::max(exponent, least_exponent) - least_exponent);
         return NodeRef(biased << 54 | std::uint64_t{triangles} << 32 | first);
     }
@@ -40,7 +41,7 @@ public:
     NodeRef part(std::uint32_t first, std::uint32_t triangles) const {
         return NodeRef((bits_ >> 54) << 54 | std::uint64_t{triangles} << 32 | (index() + first));
     }
-    double distance() const { // ldexp takes longer than the rest of a leaf's set-up
+    double distance() const {
         const std::uint64_t bits = ((bits_ >> 54) + static_cast<std::uint64_t>(1023 + least_exponent)) << 52;
         double result;
         std::memcpy(&result, &bits, sizeof result);

@@ -84,7 +84,7 @@ private:
         if (count == 0) return;
         const LeafWriter::Leaf written = leaves.write(old.index(), leaf.data(), count);
         node.child[i] = written.reference;
-        set_leaf_box(node, i, written.lower, written.upper, written.extent());
+        set_box(node, i, written.box);
     }
 
     // The primitives of a leaf of the other tree that can be hit now.

@@ -63,7 +63,8 @@ void measure_build(SceneUnderTest& scene) {
 
 std::string build_table(const Session& session) {
     Table table("Building, ns per triangle (ms of ours in front); the ratios are time of Embree 3 over ours",
-                {"scene", "threads", "ms", "bvh", "LOW", "MEDIUM", "HIGH", "over MEDIUM", "bvh_quality", "over HIGH"});
+                {"scene", "threads", "ms", "bvh", "LOW", "MEDIUM", "HIGH", "over MEDIUM", "bvh_quality", "over HIGH",
+                 "bvh_morton", "over LOW"});
     for (const Cell& cell : session.cells) {
         if (cell.section != "build") continue;
         const auto per_triangle = [&](const Value* value) {
@@ -74,10 +75,12 @@ std::string build_table(const Session& session) {
         };
         const Value* const ours = cell.of(ours_forced);
         const Value* const quality = cell.of(ours_quality);
+        const Value* const morton = cell.of(ours_morton);
         table.add({cell.scene, std::to_string(cell.threads), ours != nullptr ? digits(ours->value) : "-",
                    per_triangle(ours), per_triangle(cell.of("Embree 3 LOW")), per_triangle(cell.of("Embree 3 MEDIUM")),
                    per_triangle(cell.of("Embree 3 HIGH")), over(ours, cell.of("Embree 3 MEDIUM")),
-                   per_triangle(quality), over(quality, cell.of("Embree 3 HIGH"))});
+                   per_triangle(quality), over(quality, cell.of("Embree 3 HIGH")), per_triangle(morton),
+                   over(morton, cell.of("Embree 3 LOW"))});
     }
     return table.empty() ? std::string() : table.text();
 }

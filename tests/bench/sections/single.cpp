@@ -109,10 +109,11 @@ std::string single_table(const Session& session) {
         Table table(
             std::string("Single calls, 1 thread, ") + asked.rays + " rays, " + name_of(asked.question) + " hit: Mray/s",
             {"scene", "triangles", "bvh", "isa", "chosen", "", "best peer", "", "ratio", "robust", "AVX2", "yardstick",
-             "AVX2", "bvh_quality", "E3 HIGH"});
+             "AVX2", "bvh_quality", "E3 HIGH", "bvh_morton", "over bvh"});
         for (const Cell& cell : session.cells) {
             if (cell.section != section || cell.rays != asked.rays || cell.query != name_of(asked.question)) continue;
             const Value* const ours = cell.of(ours_forced);
+            const Value* const morton = cell.of(ours_morton);
             const Value* const chosen = cell.of(ours_chosen);
             const Value* const peer = cell.best_peer();
             const auto speed = [&](const char* subject) {
@@ -129,7 +130,8 @@ std::string single_table(const Session& session) {
                        robust != nullptr ? ratio_text(cell.ratio(*ours, *robust)) : "",
                        avx2 != nullptr ? ratio_to_best(*avx2, ours_forced) : "", ratio_to_best(cell, yardstick_name),
                        avx2 != nullptr ? ratio_to_best(*avx2, yardstick_name) : "", speed(ours_quality),
-                       speed("Embree 3 HIGH")});
+                       speed("Embree 3 HIGH"), speed(ours_morton),
+                       morton != nullptr ? ratio_text(cell.ratio(*morton, *ours)) : ""});
         }
         if (!table.empty()) text += table.text();
     }

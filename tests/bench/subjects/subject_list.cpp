@@ -34,7 +34,13 @@ constexpr EmbreeRow embree_rows[] = {
     {{"HIGH compact", RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_COMPACT, false}, false, false, false},
 };
 
-constexpr const char* ours_quality_structure = "bvh_quality";
+// Beside bvh, where the library has them.
+struct OursRow {
+    const char* name;
+    const char* structure;
+};
+
+const OursRow ours_rows[] = {{ours_quality, "bvh_quality"}, {ours_morton, "bvh_morton"}};
 
 bool begins_with_one_of(const std::string& name, const std::vector<std::string>& beginnings) {
     return beginnings.empty() || std::any_of(beginnings.begin(), beginnings.end(), [&](const std::string& beginning) {
@@ -67,8 +73,10 @@ void add_ours(TakingPart& all, const SubjectFiles& files) {
     all.ours = std::make_unique<Library>("raywise", files.ours);
     const std::string& instruction_set = this_machine().instruction_set;
     all.subjects.push_back(raywise_subject({ours_forced, "bvh", instruction_set}, *all.ours));
-    if (has_structure(*all.ours, ours_quality_structure))
-        all.subjects.push_back(raywise_subject({ours_quality, ours_quality_structure, instruction_set}, *all.ours));
+    for (const OursRow& row : ours_rows) {
+        if (has_structure(*all.ours, row.structure))
+            all.subjects.push_back(raywise_subject({row.name, row.structure, instruction_set}, *all.ours));
+    }
     all.subjects.push_back(raywise_subject({ours_chosen, nullptr, instruction_set}, *all.ours));
     all.yardstick.push_back(yardstick_subject());
 

@@ -1786,8 +1786,8 @@ Returns: RW_OK.
     pub fn rw_structure_count(count: *mut u32) -> i32;
     /**
 ```text
-Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality". Names stay,
-and so does their order; more may follow.
+Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality",
+"bvh_morton". Names stay, and so does their order; more may follow.
 index: below the count. name: receives a constant text.
 Returns: RW_OK.
 ```

@@ -170,7 +170,7 @@ fn statistics_and_bounds_tell_what_is_in_a_scene() -> Result {
 #[test]
 fn every_structure_can_be_forced() -> Result {
     let structures = raywise::structures()?;
-    for needed in ["linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality"] {
+    for needed in ["linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality", "bvh_morton"] {
         assert!(structures.contains(&needed), "{needed}");
     }
     for structure in structures {

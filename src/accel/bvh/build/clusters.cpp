@@ -65,17 +65,11 @@ private:
             copy_planes(upper, 3, i);
         }
     }
-    void copy_planes(const Lanes* corners, int first_plane, std::uint32_t i) {
-        const Lanes xy01 = __builtin_shufflevector(corners[0], corners[1], 0, 4, 1, 5);
-        const Lanes xy23 = __builtin_shufflevector(corners[2], corners[3], 0, 4, 1, 5);
-        const Lanes z01 = __builtin_shufflevector(corners[0], corners[1], 2, 6, 3, 7);
-        const Lanes z23 = __builtin_shufflevector(corners[2], corners[3], 2, 6, 3, 7);
-        const Lanes x = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
-        const Lanes y = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
-        const Lanes z = __builtin_shufflevector(z01, z23, 0, 1, 4, 5);
-        std::memcpy(boxes_.plane(first_plane) + i, &x, sizeof x);
-        std::memcpy(boxes_.plane(first_plane + 1) + i, &y, sizeof y);
-        std::memcpy(boxes_.plane(first_plane + 2) + i, &z, sizeof z);
+    void copy_planes(const Lanes (&corners)[4], int first_plane, std::uint32_t i) {
+        Lanes axes[3];
+        to_axes(corners, axes);
+        for (int axis = 0; axis < 3; ++axis)
+            std::memcpy(boxes_.plane(first_plane + axis) + i, &axes[axis], sizeof axes[axis]);
     }
 
     // Two that chose each other become one, where the first of them was. The others move up.

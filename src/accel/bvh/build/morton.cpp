@@ -1,20 +1,12 @@
 #include "accel/bvh/build/morton.h"
 
+#include "accel/bvh/build/radix_sort.h"
+
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <vector>
 
 namespace raywise {
 namespace {
-
-// A pass of the radix sort orders by so many bits: three passes see all of a code.
-constexpr int digit_bits = 10;
-constexpr std::size_t digit_count = std::size_t{1} << digit_bits;
-constexpr int passes = 3 * MortonGrid::bits_per_axis / digit_bits;
-
-// Items a thread sorts on its own.
-constexpr std::uint32_t block_size = 65536;
 
 // Equal codes in a row that are worth a finer grid: clustering looks about so far along the curve anyway.
 constexpr std::uint32_t longest_run = 16;
@@ -23,39 +15,6 @@ constexpr std::uint32_t longest_run = 16;
 constexpr int most_refinements = 30;
 
 using Key = MortonKey;
-
-std::uint32_t digit(const Key& key, int pass) { return (key.code >> (pass * digit_bits)) & (digit_count - 1); }
-
-// Least significant digit first, stable. Blocks count their digits, and then each knows where its keys go.
-void radix_sort(Key* keys, Key* other, std::uint32_t count, const Parallel& parallel) {
-    const std::size_t blocks = (count + block_size - 1) / block_size;
-    std::vector<std::array<std::uint32_t, digit_count>> places(blocks);
-    const auto for_blocks = [&](const auto& body) {
-        parallel.for_each(blocks, [&](std::uint64_t block) {
-            const auto begin = static_cast<std::uint32_t>(block * block_size);
-            body(begin, std::min(count - begin, block_size) + begin, places[block]);
-        });
-    };
-    for (int pass = 0; pass < passes; ++pass) {
-        for_blocks([&](std::uint32_t begin, std::uint32_t end, auto& counts) {
-            counts.fill(0);
-            for (std::uint32_t i = begin; i < end; ++i) ++counts[digit(keys[i], pass)];
-        });
-        std::uint32_t place = 0;
-        for (std::size_t d = 0; d < digit_count; ++d) {
-            for (auto& block : places) {
-                const std::uint32_t here = block[d];
-                block[d] = place;
-                place += here;
-            }
-        }
-        for_blocks([&](std::uint32_t begin, std::uint32_t end, auto& next) {
-            for (std::uint32_t i = begin; i < end; ++i) other[next[digit(keys[i], pass)]++] = keys[i];
-        });
-        std::swap(keys, other);
-    }
-    static_assert(passes % 2 == 1, "the sorted keys are in the second array");
-}
 
 class MortonSorter {
 public:
@@ -66,7 +25,7 @@ public:
         std::vector<Run> large;
         std::vector<Run> small;
         const auto look_closer = [&](const Run& run) {
-            for_equal(run, [&](const Run& part) { (part.count > block_size ? large : small).push_back(part); });
+            for_equal(run, [&](const Run& part) { (part.count > radix_sort_block ? large : small).push_back(part); });
         };
         radix_sort(other_.data(), keys_.data(), count, parallel_);
         look_closer({0, count, 0});
@@ -101,7 +60,7 @@ private:
 
     void sort_large(const Run& run) {
         const MortonGrid grid(bounds_of(run));
-        parallel_.for_blocks(run.count, block_size, [&](std::uint64_t begin, std::uint64_t end) {
+        parallel_.for_blocks(run.count, radix_sort_block, [&](std::uint64_t begin, std::uint64_t end) {
             for (std::uint64_t i = run.begin + begin; i < run.begin + end; ++i) {
                 const std::uint32_t index = keys_[i].index;
                 other_[i] = {grid.code(Bounds::of(items_[index]).centroid()), index};

@@ -1,5 +1,8 @@
 #include "accel/bvh/build/references.h"
 
+#include "accel/dense_region.h"
+#include "geometry/mesh_cursor.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -28,14 +31,6 @@ BuildItem make_item(const CornersF& c) {
     return bounds.item(0, 1);
 }
 
-// Where most primitives are. A curve over all of a scene would follow one axis alone where something lies far off along the two others:
-// terrain with a stray corner at the origin would be cut into layers. What lies outside has the codes of the cells along the border.
-Bounds dense_part(const Bounds& all, double radius) {
-    constexpr double radii = 4.0;
-    const Lanes reach = fill_lanes(static_cast<float>(std::min(radii * radius, 0x1p127)));
-    return {max_lanes(all.lower, -reach), min_lanes(all.upper, reach)};
-}
-
 } // namespace
 
 BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame,
@@ -56,23 +51,20 @@ BuildReferences gather_references(const BuildInput& input, const SceneFrame& fra
     const BoxF box = round_outwards(SceneFrame::relative(primitives.bounds(), center));
     const Bounds all{Lanes{box.lower.x, box.lower.y, box.lower.z, 0.0f},
                      Lanes{box.upper.x, box.upper.y, box.upper.z, 0.0f}};
-    const MortonGrid grid(dense_part(all, frame.radius()));
+    const DenseRegion dense = dense_region(primitives);
+    const auto grid = MortonGrid::over_most(all, dense.center - center, dense.radius);
     references.bounds = all;
     const bool exact = center == Vec3(0.0);
     const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;
     input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
         const std::uint64_t begin = chunk * chunk_size;
         const std::uint64_t end = std::min<std::uint64_t>(references.count, begin + chunk_size);
-        PrimitiveId id{0, 0};
-        std::uint32_t next = 0; // the first primitive after the mesh of `id`
+        MeshCursor cursor(primitives);
         for (std::uint64_t i = begin; i < end; ++i) {
             const std::uint32_t primitive = hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i];
-            if (primitive >= next) {
-                id = primitives.locate(primitive);
-                next = primitives.number({id.geometry, 0}) + primitives.meshes()[id.geometry]->triangle_count();
-            }
-            const TriangleMesh& mesh = *primitives.meshes()[id.geometry];
-            const std::uint32_t triangle = mesh.triangle_count() - (next - primitive);
+            cursor.move_to(primitive);
+            const TriangleMesh& mesh = cursor.mesh();
+            const std::uint32_t triangle = cursor.triangle(primitive);
             BuildItem item = exact && mesh.is_float32() ? make_item(mesh.corners_float32(triangle))
                                                         : make_item(mesh.corners(triangle), center);
             item.id = primitive;

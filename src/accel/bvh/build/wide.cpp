@@ -2,6 +2,7 @@
 #include "accel/bvh/build/wide.h"
 
 #include "accel/bvh/build/bounds.h"
+#include "accel/bvh/build/subtrees.h"
 #include "accel/bvh/write.h"
 
 #include <algorithm>
@@ -15,10 +16,6 @@ namespace {
 
 // A subtree of so few triangles becomes a leaf: eight are tested in one go, and two halves of a full block are seldom full.
 constexpr std::uint32_t leaf_size = 6;
-
-// Subtrees up to this size are widened by one thread each, what is above them by one alone. It depends on nothing but the scene, and
-// neither does the order of the nodes therefore.
-constexpr std::uint32_t job_size = 16384;
 
 // A node of the binary tree, and the references below it.
 struct Subtree {
@@ -64,37 +61,29 @@ public:
     WideBvh run() {
         if (tree_.empty()) return std::move(bvh_);
         bvh_.frame = tree_.frame;
+        bvh_.repeats = tree_.references.size() > input_.primitives.hittable_count();
         make_blocks(bvh_, input_.primitives, tree_.references.size());
 
         top_.emplace_back();
         LeafWriter leaves(bvh_, input_.primitives);
         make_top(0, extents_.of(tree_.root), leaves);
-        input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
-            Job& job = jobs_[i];
-            job.nodes.reserve(job.root.count / 16 + 1);
-            job.nodes.emplace_back();
-            LeafWriter leaves_of_job(bvh_, input_.primitives);
-            make_node(job.nodes, 0, job.root, leaves_of_job);
-            fit_inner(job.nodes.data(), job.nodes.size());
-            const double part =
-                static_cast<double>(done_ += job.root.count) / static_cast<double>(tree_.references.size());
+        input_.parallel.for_each(subtrees_.size(), [&](std::uint64_t i) {
+            const Subtree& root = roots_[i];
+            std::vector<WideNode>& nodes = subtrees_[i].nodes;
+            nodes.reserve(root.count / 16 + 1);
+            nodes.emplace_back();
+            LeafWriter leaves_of_subtree(bvh_, input_.primitives);
+            make_node(nodes, 0, root, leaves_of_subtree);
+            fit_inner_children(nodes.data(), nodes.size());
+            const double part = static_cast<double>(done_ += root.count) / static_cast<double>(tree_.references.size());
             input_.progress.report(progress_begin_ + (1.0 - progress_begin_) * part, "bvh");
         });
-        assemble();
-        bvh_.repeats = tree_.references.size() > input_.primitives.hittable_count();
+        bvh_.nodes = assemble(std::move(top_), subtrees_, input_.parallel);
         bvh_.built_cost = tree_cost(bvh_, input_.parallel);
         return std::move(bvh_);
     }
 
 private:
-    // A subtree that a thread widens alone. Its nodes are numbered from 0 until all are assembled.
-    struct Job {
-        Subtree root;
-        std::uint32_t parent; // the top node it hangs below, and as which child
-        std::uint32_t child;
-        std::vector<WideNode> nodes;
-    };
-
     void make_top(std::uint32_t index, const Subtree& subtree, LeafWriter& leaves) {
         const Children children = choose_children(subtree);
         top_[index] = empty_node();
@@ -102,8 +91,9 @@ private:
             const Subtree& child = children[i];
             if (is_leaf(child)) {
                 set_leaf(top_[index], i, child, leaves);
-            } else if (child.count <= job_size) {
-                jobs_.push_back({child, index, i, {}});
+            } else if (child.count <= subtree_size) {
+                roots_.push_back(child);
+                subtrees_.push_back({index, i, {}});
             } else {
                 const auto next = static_cast<std::uint32_t>(top_.size());
                 top_.emplace_back();
@@ -163,59 +153,20 @@ private:
         return children;
     }
 
-    static WideNode empty_node() {
-        WideNode node{};
-        for (std::uint32_t i = 0; i < wide_bvh_width; ++i) set_empty(node, i);
-        return node;
-    }
-
-    // The boxes of inner nodes, around those of their children, which lie behind them.
-    static void fit_inner(WideNode* nodes, std::size_t count) {
-        for (std::size_t n = count; n-- > 0;) {
-            for (std::uint32_t i = 0; i < wide_bvh_width; ++i) {
-                const NodeRef child = nodes[n].child[i];
-                if (is_inner_child(nodes[n], i)) set_box_around(nodes[n], i, nodes[child.index()]);
-            }
-        }
-    }
-    // Before it has a box, too: the root is nobody's child.
-    static bool is_inner_child(const WideNode& node, std::uint32_t i) {
-        return !node.child[i].is_leaf() && node.child[i].index() != 0;
-    }
-
     void set_leaf(WideNode& node, std::uint32_t i, const Subtree& leaf, LeafWriter& leaves) {
         const LeafWriter::Leaf written = leaves.write(leaf.first, &tree_.references[leaf.first], leaf.count);
         node.child[i] = written.reference;
-        // The tree's boxes are relative to the frame's center already.
-        const auto& planes = leaf.node->planes;
-        const Vec3f lower(planes[0][0], planes[0][1], planes[0][2]);
-        const Vec3f upper(planes[1][0], planes[1][1], planes[1][2]);
-        const double scale = bvh_.frame.scale();
-        set_leaf_box(node, i, scale * Vec3(lower), scale * Vec3(upper), written.extent());
+        set_box(node, i, bvh_.repeats ? box_of_parts(*leaf.node, written.extent) : written.box);
     }
 
-    void assemble() {
-        std::vector<std::uint32_t> offsets;
-        offsets.reserve(jobs_.size());
-        std::size_t total = top_.size();
-        for (const Job& job : jobs_) {
-            offsets.push_back(static_cast<std::uint32_t>(total));
-            top_[job.parent].child[job.child] = NodeRef::node(offsets.back());
-            total += job.nodes.size();
-        }
-        bvh_.nodes = PageArray<WideNode>(total);
-        std::copy(top_.begin(), top_.end(), bvh_.nodes.begin());
-        input_.parallel.for_each(jobs_.size(), [&](std::uint64_t i) {
-            WideNode* const nodes = bvh_.nodes.data() + offsets[i];
-            std::copy(jobs_[i].nodes.begin(), jobs_[i].nodes.end(), nodes);
-            for (std::size_t k = 0; k < jobs_[i].nodes.size(); ++k) {
-                for (NodeRef& child : nodes[k].child) {
-                    if (!child.is_leaf()) child = NodeRef::node(child.index() + offsets[i]);
-                }
-            }
-            jobs_[i].nodes = {};
-        });
-        fit_inner(bvh_.nodes.data(), top_.size());
+    // Of a leaf with triangles that were cut: smaller than they are.
+    Bounds box_of_parts(const BvhNode& leaf, double extent) const {
+        // The tree's boxes are relative to the frame's center already.
+        const Bounds box = bounds_of(leaf);
+        const double scale = bvh_.frame.scale();
+        return leaf_box({round_down(scale * __builtin_convertvector(box.lower, DoubleLanes)),
+                         round_up(scale * __builtin_convertvector(box.upper, DoubleLanes))},
+                        extent);
     }
 
     const BvhTree& tree_;
@@ -224,7 +175,8 @@ private:
     const Extents extents_;
     WideBvh bvh_;
     std::vector<WideNode> top_;
-    std::vector<Job> jobs_;
+    std::vector<NodeSubtree> subtrees_;
+    std::vector<Subtree> roots_; // of the subtrees
     std::atomic<std::uint64_t> done_{0};
 };
 

@@ -1,0 +1,130 @@
+#include "scene/look.h"
+
+#include "accel/grid/uniform_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace raywise {
+namespace {
+
+// Fast hashing of 64 bits (SplitMix64's finaliser; Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+// One out of each of `sampled` equal parts of all, at no regular distance: meshes repeat themselves.
+std::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32_t sampled) {
+    const std::uint32_t count = primitives.count();
+    std::vector<std::uint32_t> chosen;
+    chosen.reserve(sampled);
+    for (std::uint64_t i = 0; i < sampled; ++i) {
+        const std::uint64_t begin = i * count / sampled;
+        const std::uint64_t size = (i + 1) * count / sampled - begin;
+        const auto primitive = static_cast<std::uint32_t>(begin + mixed(i + 1) % size);
+        if (primitives.is_hittable(primitive)) chosen.push_back(primitive);
+    }
+    return chosen;
+}
+
+// Half the surface of a box: in the mean over all directions, twice what it covers.
+double half_area(const Vec3& size) { return size.x * size.y + size.y * size.z + size.z * size.x; }
+
+// The grid that the features speak of.
+struct Cells {
+    explicit Cells(const Box& bounds, double triangles)
+        : lower(bounds.lower),
+          resolution(grid_resolution(bounds.size(), triangles, feature_cells_per_triangle)),
+          size(bounds.size()) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double count = resolution[static_cast<std::size_t>(axis)];
+            per_unit[axis] = size[axis] > 0.0 ? count / size[axis] : 0.0;
+        }
+    }
+
+    double count(int axis) const { return resolution[static_cast<std::size_t>(axis)]; }
+    double number() const { return count(0) * count(1) * count(2); }
+
+    // Between the cells along one axis there are planes; a line that meets the box meets each with the chance that areas give.
+    double along_line() const {
+        const double area = half_area(size);
+        if (!(area > 0.0)) return max_component(Vec3(count(0), count(1), count(2)));
+        double cells = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double face = size[(axis + 1) % 3] * size[(axis + 2) % 3];
+            cells += (count(axis) - 1.0) * face / area;
+        }
+        return cells;
+    }
+    std::uint64_t at(const Vec3& point) const {
+        std::uint64_t cell = 0;
+        for (int axis = 2; axis >= 0; --axis) {
+            const double place = std::clamp((point[axis] - lower[axis]) * per_unit[axis], 0.0, count(axis) - 1.0);
+            cell = cell * resolution[static_cast<std::size_t>(axis)] + static_cast<std::uint64_t>(place);
+        }
+        return cell;
+    }
+    // In the mean over where the planes are.
+    double reached_by(const Vec3& box) const {
+        double cells = 1.0;
+        for (int axis = 0; axis < 3; ++axis) cells *= std::min(count(axis), 1.0 + box[axis] * per_unit[axis]);
+        return cells;
+    }
+
+    Vec3 lower;
+    std::array<std::uint32_t, 3> resolution;
+    Vec3 size;
+    Vec3 per_unit{0.0};
+};
+
+// The pairs of equal numbers.
+double equal_pairs(std::vector<std::uint64_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    double pairs = 0.0;
+    for (std::size_t begin = 0; begin < numbers.size();) {
+        std::size_t end = begin;
+        while (end < numbers.size() && numbers[end] == numbers[begin]) ++end;
+        pairs += 0.5 * static_cast<double>(end - begin) * static_cast<double>(end - begin - 1);
+        begin = end;
+    }
+    return pairs;
+}
+
+} // namespace
+
+SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
+    const std::vector<std::uint32_t> chosen =
+        sampled == 0 ? std::vector<std::uint32_t>() : sample(primitives, std::min(sampled, primitives.count()));
+    if (chosen.empty()) return typical_features(primitives.hittable_count());
+
+    const double triangles = static_cast<double>(primitives.hittable_count());
+    const Cells cells(primitives.bounds(), triangles);
+    const double area = half_area(cells.size);
+    SceneFeatures features;
+    features.triangles = triangles;
+    features.cells = cells.along_line();
+    std::vector<std::uint64_t> cell_of_middle;
+    cell_of_middle.reserve(chosen.size());
+    for (const std::uint32_t primitive : chosen) {
+        const Box box = primitives.box(primitive);
+        features.boxes += area > 0.0 ? half_area(box.size()) / area : 1.0;
+        features.references += cells.reached_by(box.size());
+        cell_of_middle.push_back(cells.at(box.center()));
+    }
+    const double looked_at = static_cast<double>(chosen.size());
+    features.boxes *= triangles / looked_at;
+    features.references /= looked_at;
+    // Of all pairs the same part as of those looked at shares a cell.
+    const double pairs = 0.5 * looked_at * (looked_at - 1.0);
+    features.crowding = 1.0 + (pairs > 0.0 ? (triangles - 1.0) * equal_pairs(cell_of_middle) / pairs : 0.0);
+    // As if each cell that holds something held as many middles.
+    features.filled =
+        features.cells * std::min(1.0, triangles * features.references / (features.crowding * cells.number()));
+    return features;
+}
+
+} // namespace raywise
