@@ -1,6 +1,7 @@
 #include "accel/kdtree/treelets.h"
 
 #include "accel/kdtree/treelet_cuts.h"
+#include "geometry/mesh_cursor.h"
 
 #include <algorithm>
 #include <cstring>
@@ -99,30 +100,8 @@ private:
     std::vector<Waiting> waiting_;
 };
 
-// Reads triangles of one mesh after the other, mostly.
-class MeshCursor {
-public:
-    explicit MeshCursor(const Primitives& primitives) : primitives_(primitives) {}
-
-    CornersF corners(std::uint32_t primitive, float) { return find(primitive).corners_float32(primitive - first_); }
-    Corners corners(std::uint32_t primitive, double) { return find(primitive).corners(primitive - first_); }
-
-private:
-    const TriangleMesh& find(std::uint32_t primitive) {
-        if (primitive - first_ >= count_) {
-            const std::uint32_t geometry = primitives_.locate(primitive).geometry;
-            mesh_ = primitives_.meshes()[geometry].get();
-            first_ = primitives_.number({geometry, 0});
-            count_ = mesh_->triangle_count();
-        }
-        return *mesh_;
-    }
-
-    const Primitives& primitives_;
-    const TriangleMesh* mesh_ = nullptr;
-    std::uint32_t first_ = 0;
-    std::uint32_t count_ = 0;
-};
+CornersF corners_as(float, const TriangleMesh& mesh, std::uint32_t triangle) { return mesh.corners_float32(triangle); }
+Corners corners_as(double, const TriangleMesh& mesh, std::uint32_t triangle) { return mesh.corners(triangle); }
 
 template <class T>
 void write_leaf(const std::uint32_t* list, std::uint32_t count, const Vec3& center, MeshCursor& cursor,
@@ -132,7 +111,8 @@ void write_leaf(const std::uint32_t* list, std::uint32_t count, const Vec3& cent
     for (std::uint32_t begin = 0; begin < count; begin += triangle_block_size) {
         const std::uint32_t n = std::min(triangle_block_size, count - begin);
         for (std::uint32_t i = 0; i < n; ++i) {
-            const auto corners = cursor.corners(list[begin + i], T());
+            cursor.move_to(list[begin + i]);
+            const auto corners = corners_as(T(), cursor.mesh(), cursor.triangle(list[begin + i]));
             T numbers[3][3];
             for (std::size_t k = 0; k < 3; ++k) {
                 for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,7 @@
 #include "accel/kdtree/build/items.h"
 
 #include "accel/kdtree/build/clip.h"
+#include "geometry/mesh_cursor.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -44,16 +45,12 @@ std::vector<BuildItem> gather_kd_items(const BuildInput& input, const SceneFrame
     input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
         const std::uint64_t begin = chunk * chunk_size;
         const std::uint64_t end = std::min<std::uint64_t>(items.size(), begin + chunk_size);
-        PrimitiveId id{0, 0};
-        std::uint32_t next = 0; // the first primitive after the mesh of `id`
+        MeshCursor cursor(primitives);
         for (std::uint64_t i = begin; i < end; ++i) {
             const std::uint32_t primitive = hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i];
-            if (primitive >= next) {
-                id = primitives.locate(primitive);
-                next = primitives.number({id.geometry, 0}) + primitives.meshes()[id.geometry]->triangle_count();
-            }
-            const TriangleMesh& mesh = *primitives.meshes()[id.geometry];
-            const std::uint32_t triangle = mesh.triangle_count() - (next - primitive);
+            cursor.move_to(primitive);
+            const TriangleMesh& mesh = cursor.mesh();
+            const std::uint32_t triangle = cursor.triangle(primitive);
             items[i] = frame.float_scale() != 0.0f && mesh.is_float32()
                            ? item_of(mesh.corners_float32(triangle), frame.float_scale())
                            : item_of(mesh.corners(triangle), frame);
