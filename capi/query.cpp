@@ -5,8 +5,11 @@
 namespace raywise::capi {
 namespace {
 
-Parallel read_query_parallel(const rw_query_options& options) {
-    return read_parallel(options.threads, options.parallel_for, options.parallel_user);
+BatchOptions read_batch_options(const rw_query_options& options) {
+    BatchOptions result;
+    result.parallel = read_parallel(options.threads, options.parallel_for, options.parallel_user);
+    result.watch = read_watch(options);
+    return result;
 }
 
 RayArrays read_checked_rays(const rw_rays* rays, const Tracer& tracer) {
@@ -78,7 +81,7 @@ void intersect_batch(const Tracer& tracer, const rw_rays* rays, const rw_hits* h
     BatchMemory memory = memory_of(in, o);
     memory.writes(out, in.count);
     memory.refuse_shared();
-    report_invalid(o, raywise::intersect_batch(tracer, in, out, read_query_parallel(o), read_watch(o)));
+    report_invalid(o, raywise::intersect_batch(tracer, in, out, read_batch_options(o)));
 }
 
 void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* answers,
@@ -90,7 +93,7 @@ void occluded_batch(const Tracer& tracer, const rw_rays* rays, const rw_output* 
     BatchMemory memory = memory_of(in, o);
     memory.writes("occluded", out, in.count, 1);
     memory.refuse_shared();
-    report_invalid(o, raywise::occluded_batch(tracer, in, out, read_query_parallel(o), read_watch(o)));
+    report_invalid(o, raywise::occluded_batch(tracer, in, out, read_batch_options(o)));
 }
 
 void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_t* offsets, const rw_hits* hits,
@@ -106,8 +109,7 @@ void intersect_all_batch(const Tracer& tracer, const rw_rays* rays, std::uint64_
     memory.writes(out, capacity);
     memory.refuse_shared();
     std::uint64_t count = 0;
-    report_invalid(o, raywise::intersect_all_batch(tracer, in, offsets, out, capacity, count, read_query_parallel(o),
-                                                   read_watch(o)));
+    report_invalid(o, raywise::intersect_all_batch(tracer, in, offsets, out, capacity, count, read_batch_options(o)));
     if (needed != nullptr) *needed = count;
     if (hits != nullptr && count > capacity) throw over_capacity(count, capacity);
 }

@@ -50,13 +50,16 @@ struct BuildInput {
 };
 
 // Many rays, each with what narrows it down.
-struct RayPacket {
-    const Ray* rays;
+template <class AnyRay>
+struct PacketOf {
+    const AnyRay* rays;
     const Query* queries; // null: nothing narrows any of them down
     std::size_t count;
 
     Query query(std::size_t i) const { return queries != nullptr ? queries[i] : Query{}; }
 };
+using RayPacket = PacketOf<Ray>;
+using RayPacketF = PacketOf<RayF>;
 
 class Accel;
 
@@ -86,7 +89,7 @@ public:
     // Every hit once, appended in any order.
     virtual void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const = 0;
 
-    // How many rays the next two would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
+    // How many rays the next four would like to get at a time, whatever their order; 1: none, for structures that gain more from rays
     // that follow near ones.
     virtual std::size_t rays_at_a_time() const { return 1; }
     // How many rays keep a thread busy for longer than waking it takes, where that is fewer than through a tree or a grid; 0: it is not.
@@ -94,6 +97,8 @@ public:
     // The same for many rays at a time: answer i is that of ray i. scratch: for whatever memory it takes; not reset here.
     virtual void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const;
     virtual void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const;
+    virtual void closest_many_f32(const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) const;
+    virtual void any_many_f32(const RayPacketF& rays, bool* found, Scratch& scratch) const;
 
     // Memory of the structure.
     virtual std::size_t bytes() const = 0;

@@ -95,7 +95,8 @@ private:
 template <class Collector>
 class Collectors {
 public:
-    Collectors(const RayPacket& rays, Scratch& scratch)
+    template <class AnyRay>
+    Collectors(const PacketOf<AnyRay>& rays, Scratch& scratch)
         : queries_(scratch.take<Query>(rays.count)), collectors_(scratch.take<Collector>(rays.count)) {
         for (std::size_t i = 0; i < rays.count; ++i) {
             new (queries_ + i) Query(rays.query(i));

@@ -30,14 +30,30 @@ void write_numbers(const OutputArray& array, int component, const Elements& elem
     }
 }
 
-void write_ids(const OutputArray& array, const Elements& elements, const Hit* hits, std::uint32_t Hit::*id) {
+// id_of(k): invalid_id for a miss.
+template <class IdOf>
+void write_ids(const OutputArray& array, const Elements& elements, const IdOf& id_of) {
     if (!array.wanted()) return;
     if (array.scalar == Scalar::uint32) {
-        store<std::uint32_t>(array, 0, elements, [=](std::size_t k) { return hits[k].*id; });
+        store<std::uint32_t>(array, 0, elements, id_of);
     } else {
-        store<std::uint64_t>(array, 0, elements, [=](std::size_t k) {
-            return hits[k].*id == invalid_id ? std::numeric_limits<std::uint64_t>::max() : hits[k].*id;
+        store<std::uint64_t>(array, 0, elements, [&](std::size_t k) {
+            const std::uint32_t id = id_of(k);
+            return id == invalid_id ? std::numeric_limits<std::uint64_t>::max() : id;
         });
+    }
+}
+
+void write_normals(const OutputArray& array, const Elements& elements, const PrimitiveHit* hits,
+                   const Primitives& primitives) {
+    if (!array.wanted()) return;
+    constexpr std::size_t together = 64; // few enough to stay at hand from one component to the next
+    Vec3 normals[together];
+    for (std::size_t begin = 0; begin < elements.count(); begin += together) {
+        const Elements part = elements.part(begin, std::min(together, elements.count() - begin));
+        for (std::size_t k = 0; k < part.count(); ++k) normals[k] = normal_of(hits[begin + k], primitives);
+        for (int axis = 0; axis < 3; ++axis)
+            write_numbers(array, axis, part, [&](std::size_t k) { return normals[k][axis]; });
     }
 }
 
@@ -54,30 +70,33 @@ void OutputArray::write(const Elements& elements, const bool* flags) const {
     }
 }
 
-void HitArrays::write(const Elements& elements, const Hit* hits, const Primitives& primitives) const {
-    constexpr std::size_t together = 64; // few enough to stay at hand from one field to the next
-    Vec3 normals[together];
-    for (std::size_t begin = 0; begin < elements.count(); begin += together) {
-        const Elements part = elements.part(begin, std::min(together, elements.count() - begin));
-        write_found(part, hits + begin);
-        if (!normal.wanted()) continue;
-        for (std::size_t k = 0; k < part.count(); ++k) normals[k] = normal_of(hits[begin + k], primitives);
-        write_normals(part, normals);
-    }
+void OutputArray::prefetch(const Elements& elements) const {
+    if (!wanted()) return;
+    for (std::size_t k = 0; k < elements.count(); ++k)
+        __builtin_prefetch(data + static_cast<std::ptrdiff_t>(elements[k]) * stride, 1);
 }
 
-void HitArrays::write_found(const Elements& elements, const Hit* hits) const {
+void HitArrays::write(const Elements& elements, const PrimitiveHit* hits, const Primitives& primitives) const {
     write_numbers(t, 0, elements, [=](std::size_t k) { return hits[k].t; });
     write_numbers(uv, 0, elements, [=](std::size_t k) { return hits[k].u; });
     write_numbers(uv, 1, elements, [=](std::size_t k) { return hits[k].v; });
-    write_ids(instance, elements, hits, &Hit::instance);
-    write_ids(geometry, elements, hits, &Hit::geometry);
-    write_ids(primitive, elements, hits, &Hit::primitive);
+    write_ids(instance, elements, [](std::size_t) { return invalid_id; });
+    const bool is_one_mesh = primitives.meshes().size() == 1;
+    const auto located = [&](std::size_t k) {
+        return hits[k].is_hit() ? primitives.locate(hits[k].primitive) : PrimitiveId{invalid_id, invalid_id};
+    };
+    write_ids(geometry, elements, [&](std::size_t k) { return located(k).geometry; });
+    static_assert(PrimitiveHit::no_primitive == invalid_id);
+    if (is_one_mesh) { // where numbers are ids
+        write_ids(primitive, elements, [=](std::size_t k) { return hits[k].primitive; });
+    } else {
+        write_ids(primitive, elements, [&](std::size_t k) { return located(k).primitive; });
+    }
+    write_normals(normal, elements, hits, primitives);
 }
 
-void HitArrays::write_normals(const Elements& elements, const Vec3* normals) const {
-    for (int axis = 0; axis < 3; ++axis)
-        write_numbers(normal, axis, elements, [=](std::size_t k) { return normals[k][axis]; });
+void HitArrays::prefetch(const Elements& elements) const {
+    for (const OutputArray* array : {&t, &uv, &normal, &instance, &geometry, &primitive}) array->prefetch(elements);
 }
 
 } // namespace raywise

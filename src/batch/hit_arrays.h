@@ -20,6 +20,8 @@ struct OutputArray {
     bool wanted() const { return data != nullptr; }
     // As uint8, uint32 or uint64: 1 for true, 0 for false.
     void write(const Elements& elements, const bool* flags) const;
+    // Asks for the memory of these elements, which are written soon.
+    void prefetch(const Elements& elements) const;
 };
 
 struct HitArrays {
@@ -30,11 +32,9 @@ struct HitArrays {
     OutputArray geometry;
     OutputArray primitive;
 
-    // All fields.
-    void write(const Elements& elements, const Hit* hits, const Primitives& primitives) const;
-    // All but the normals, and those.
-    void write_found(const Elements& elements, const Hit* hits) const;
-    void write_normals(const Elements& elements, const Vec3* normals) const;
+    // All fields that are wanted.
+    void write(const Elements& elements, const PrimitiveHit* hits, const Primitives& primitives) const;
+    void prefetch(const Elements& elements) const;
 };
 
 } // namespace raywise

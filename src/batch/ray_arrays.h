@@ -19,7 +19,18 @@ struct RayArrays {
     StridedArray tmax; // data null: infinity
     SkipArrays skip;
 
-    void read(const Elements& elements, Ray* rays) const;
+    // Whether all that is given is float32: such rays may be read as RayF.
+    bool are_float32() const;
+
+    // AnyRay: Ray, or RayF where they are float32.
+    template <class AnyRay>
+    void read(const Elements& elements, AnyRay* rays) const;
 };
+
+// body(AnyRay{}) with the type that the rays are read as without loss.
+template <class Body>
+auto as_read(const RayArrays& rays, const Body& body) {
+    return rays.are_float32() ? body(RayF{}) : body(Ray{});
+}
 
 } // namespace raywise

@@ -13,53 +13,88 @@ namespace raywise::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, 8>;
-using Floats = hn::Rebind<float, Doubles>; // as many lanes
-using Ints = hn::RebindToSigned<Floats>;
-using Keys = hn::RebindToUnsigned<Floats>;
-using FloatVector = hn::VFromD<Floats>;
-using KeyVector = hn::VFromD<Keys>;
+// Numbers of several rays that follow each other, as float32 lanes. In float64 where they are, until they are relative to the scene.
+template <class AnyRay>
+struct RayLanes;
+
+template <>
+struct RayLanes<RayF> {
+    using Floats = hn::CappedTag<float, 16>;
+    using Vector = hn::VFromD<Floats>;
+    static constexpr std::int32_t stride = sizeof(RayF) / sizeof(float);
+
+    // number: of the first ray.
+    static HWY_INLINE Vector gather(const float* number) {
+        const hn::RebindToSigned<Floats> d;
+        return hn::GatherIndex(Floats(), number, hn::Mul(hn::Iota(d, 0), hn::Set(d, stride)));
+    }
+    // (number - from) * scale
+    static HWY_INLINE Vector relative(const float* number, double from, double scale) {
+        const Floats d;
+        return hn::Mul(hn::Sub(gather(number), hn::Set(d, static_cast<float>(from))),
+                       hn::Set(d, static_cast<float>(scale)));
+    }
+};
+
+template <>
+struct RayLanes<Ray> {
+    using Doubles = hn::CappedTag<double, 8>;
+    using Floats = hn::Rebind<float, Doubles>; // as many lanes
+    using Vector = hn::VFromD<Floats>;
+    static constexpr std::int64_t stride = sizeof(Ray) / sizeof(double);
+
+    static HWY_INLINE hn::VFromD<Doubles> gather64(const double* number) {
+        const hn::RebindToSigned<Doubles> d;
+        return hn::GatherIndex(Doubles(), number, hn::Mul(hn::Iota(d, 0), hn::Set(d, stride)));
+    }
+    static HWY_INLINE Vector gather(const double* number) { return hn::DemoteTo(Floats(), gather64(number)); }
+    static HWY_INLINE Vector relative(const double* number, double from, double scale) {
+        const Doubles d;
+        return hn::DemoteTo(Floats(), hn::Mul(hn::Sub(gather64(number), hn::Set(d, from)), hn::Set(d, scale)));
+    }
+};
 
 // x in [0, cells) to its cell; anything else to any.
-template <std::uint32_t cells>
-HWY_INLINE KeyVector cell_of(FloatVector x) {
-    const Floats d;
-    const FloatVector within = hn::Max(hn::Min(x, hn::Set(d, static_cast<float>(cells - 1))), hn::Zero(d));
-    return hn::And(hn::BitCast(Keys(), hn::ConvertTo(Ints(), within)), hn::Set(Keys(), cells - 1)); // of a NaN too
+template <std::uint32_t cells, class D>
+HWY_INLINE hn::VFromD<hn::RebindToUnsigned<D>> cell_of(D d, hn::VFromD<D> x) {
+    const hn::RebindToSigned<D> di;
+    const hn::RebindToUnsigned<D> du;
+    const auto within = hn::Max(hn::Min(x, hn::Set(d, static_cast<float>(cells - 1))), hn::Zero(d));
+    return hn::And(hn::BitCast(du, hn::ConvertTo(di, within)), hn::Set(du, cells - 1)); // of a NaN too
 }
 
 // Two zeros behind each of five bits.
-HWY_INLINE KeyVector spread(KeyVector bits) {
+template <class V>
+HWY_INLINE V spread(V bits) {
     static_assert(RayKeys::cell_bits == 5);
-    const Keys d;
+    const hn::DFromV<V> d;
     bits = hn::And(hn::Or(bits, hn::ShiftLeft<8>(bits)), hn::Set(d, 0x100Fu));
     bits = hn::And(hn::Or(bits, hn::ShiftLeft<4>(bits)), hn::Set(d, 0x10C3u));
     return hn::And(hn::Or(bits, hn::ShiftLeft<2>(bits)), hn::Set(d, 0x1249u));
 }
 
 // Answers are the same whatever the keys: they need not be exact. All is in the coordinates of the cells.
-void keys_of(const RayKeys& scene, const Ray* rays, std::size_t n, std::uint32_t* keys) {
-    const Floats d;
+template <class AnyRay>
+HWY_INLINE void make_keys(const RayKeys& scene, const AnyRay* rays, std::size_t n, std::uint32_t* keys) {
+    using Lanes = RayLanes<AnyRay>;
+    using FloatVector = typename Lanes::Vector;
+    using Keys = hn::RebindToUnsigned<typename Lanes::Floats>;
+    using KeyVector = hn::VFromD<Keys>;
+    const typename Lanes::Floats d;
     const Keys dk;
-    const Doubles d64;
-    const hn::RebindToSigned<Doubles> di64;
-    constexpr std::int64_t stride = sizeof(Ray) / sizeof(double);
-    static_assert(stride * sizeof(double) == sizeof(Ray));
-    const auto indices = hn::Mul(hn::Iota(di64, 0), hn::Set(di64, stride));
+    static_assert(Lanes::stride * sizeof rays->tmin == sizeof(AnyRay));
     constexpr float cells = 1u << RayKeys::cell_bits;
 
-    for (std::size_t k = 0; k < n; k += hn::Lanes(d64)) {
-        FloatVector near = hn::DemoteTo(d, hn::Max(hn::GatherIndex(d64, &rays[k].tmin, indices), hn::Zero(d64)));
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        FloatVector near = hn::Max(Lanes::gather(&rays[k].tmin), hn::Zero(d));
         FloatVector start[3];
         FloatVector direction[3];
         FloatVector magnitude[3];
         KeyVector octant = hn::Zero(dk);
         for (int axis = 0; axis < 3; ++axis) {
-            const auto per_unit = hn::Set(d64, scene.cells_per_unit()[axis]);
-            const auto origin = hn::GatherIndex(d64, &rays[k].origin[axis], indices);
-            start[axis] = hn::DemoteTo(d, hn::Mul(hn::Sub(origin, hn::Set(d64, scene.lower()[axis])), per_unit));
-            direction[axis] =
-                hn::DemoteTo(d, hn::Mul(hn::GatherIndex(d64, &rays[k].direction[axis], indices), per_unit));
+            const double per_unit = scene.cells_per_unit()[axis];
+            start[axis] = Lanes::relative(&rays[k].origin[axis], scene.lower()[axis], per_unit);
+            direction[axis] = Lanes::relative(&rays[k].direction[axis], 0.0, per_unit);
             magnitude[axis] = hn::Abs(direction[axis]);
             const auto backwards = hn::Lt(direction[axis], hn::Zero(d));
             const FloatVector plane = hn::IfThenElseZero(backwards, hn::Set(d, cells));
@@ -71,20 +106,27 @@ void keys_of(const RayKeys& scene, const Ray* rays, std::size_t n, std::uint32_t
         KeyVector cell = hn::Zero(dk);
         for (int axis = 0; axis < 3; ++axis) {
             const KeyVector along =
-                spread(cell_of<1u << RayKeys::cell_bits>(hn::MulAdd(near, direction[axis], start[axis])));
+                spread(cell_of<1u << RayKeys::cell_bits>(d, hn::MulAdd(near, direction[axis], start[axis])));
             cell = hn::Or(hn::Add(cell, cell), along); // the last axis has the lowest bit
         }
         constexpr std::uint32_t steps = 1u << RayKeys::direction_bits;
         const FloatVector largest = hn::Max(magnitude[0], hn::Max(magnitude[1], magnitude[2]));
         const FloatVector scale = hn::Div(hn::Set(d, static_cast<float>(steps)), largest);
         const KeyVector pointing =
-            hn::Or(hn::ShiftLeft<RayKeys::direction_bits>(cell_of<steps>(hn::Mul(magnitude[0], scale))),
-                   cell_of<steps>(hn::Mul(magnitude[1], scale)));
+            hn::Or(hn::ShiftLeft<RayKeys::direction_bits>(cell_of<steps>(d, hn::Mul(magnitude[0], scale))),
+                   cell_of<steps>(d, hn::Mul(magnitude[1], scale)));
         const KeyVector key = hn::Or(
             hn::ShiftLeft<2 * RayKeys::direction_bits>(hn::Or(hn::ShiftLeft<3 * RayKeys::cell_bits>(octant), cell)),
             pointing);
         hn::StoreU(key, dk, keys + k);
     }
+}
+
+void keys_of(const RayKeys& scene, const Ray* rays, std::size_t n, std::uint32_t* keys) {
+    make_keys(scene, rays, n, keys);
+}
+void keys_of_f32(const RayKeys& scene, const RayF* rays, std::size_t n, std::uint32_t* keys) {
+    make_keys(scene, rays, n, keys);
 }
 
 } // namespace
@@ -95,6 +137,7 @@ HWY_AFTER_NAMESPACE();
 namespace raywise {
 
 HWY_EXPORT(keys_of);
+HWY_EXPORT(keys_of_f32);
 
 RayKeys::RayKeys(const Box& bounds) : lower_(bounds.lower), cells_per_unit_(0.0) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,6 +149,9 @@ RayKeys::RayKeys(const Box& bounds) : lower_(bounds.lower), cells_per_unit_(0.0)
 
 void RayKeys::of(const Ray (&rays)[most], std::size_t n, std::uint32_t (&keys)[most]) const {
     HWY_DYNAMIC_DISPATCH(keys_of)(*this, rays, n, keys);
+}
+void RayKeys::of(const RayF (&rays)[most], std::size_t n, std::uint32_t (&keys)[most]) const {
+    HWY_DYNAMIC_DISPATCH(keys_of_f32)(*this, rays, n, keys);
 }
 
 } // namespace raywise

@@ -26,6 +26,7 @@ public:
 
     // The keys of the first n of the rays; rays and keys beyond may be read and written. Any ray has a key.
     void of(const Ray (&rays)[most], std::size_t n, std::uint32_t (&keys)[most]) const;
+    void of(const RayF (&rays)[most], std::size_t n, std::uint32_t (&keys)[most]) const;
     // Whether two keys are of the same cell and octant.
     static bool is_near(std::uint32_t a, std::uint32_t b) { return (a ^ b) >> 2 * direction_bits == 0; }
 

@@ -14,13 +14,11 @@ namespace raywise {
 
 class RayOrder {
 public:
-    explicit RayOrder(const Parallel& parallel) : parallel_(parallel) {}
-
     // Makes room for the keys of `count` rays, to be filled before sort().
     std::uint32_t* keys(std::size_t count);
     // The numbers of those rays in the order of their keys; they last until the next call of keys(). It is the same order on any number
     // of threads.
-    const std::uint32_t* sort();
+    const std::uint32_t* sort(const Parallel& parallel);
 
 private:
     static constexpr int digit_bits = RayKeys::bits / 2;
@@ -38,12 +36,11 @@ private:
         std::array<std::uint32_t, digits> next; // how many there are of each digit, then where the next of them goes
     };
 
-    void divide();
+    void divide(unsigned threads);
     // Puts each i below the count at its place by digit_of(i): place(i, where).
     template <class DigitOf, class Place>
-    void sort_by(const DigitOf& digit_of, const Place& place);
+    void sort_by(const Parallel& parallel, const DigitOf& digit_of, const Place& place);
 
-    const Parallel& parallel_;
     std::size_t count_ = 0;
     std::vector<Part> parts_;
     PageArray<std::uint32_t> keys_;

@@ -45,18 +45,19 @@ constexpr std::uint64_t blocks_per_thread = 8;
 // thread; AMD EPYC, family 26, model 2, 2026-12-01).
 constexpr std::uint64_t single_rays_per_block = 2048;
 
-// Rays are put in order where there are so many. Below 16,384 random rays on the bunny lost up to a tenth by it; where a structure takes
-// one ray at a time, 4,096 gained: docs/decisions/0014-batches-in-order.md.
+// Rays are put in order where there are so many. Fewer are in the noise of the call: 4,096 gain a tenth or nothing (bunny and a soup of a
+// million triangles, random and diffuse rays, AMD EPYC, family 26, model 2, 2026-12-01).
 constexpr std::uint64_t fewest_in_order = 4096;
-constexpr std::uint64_t fewest_in_order_of_many = 16384;
 
-// ... and where each takes so long as they come, in nanoseconds of one thread: putting them in order costs some 85 and takes away up to half
-// of what tracing does. Bunny, as they come and in order: random rays 203 and 190, shadow rays 200 and 195, camera rays 109 and 141 (0014).
-constexpr double shortest_in_order = 170.0;
+// ... and where each takes so long as they come, in nanoseconds of one thread: putting them in order costs some 17 and takes away up to half
+// of what tracing does. As they come and in order, ns a ray: stadium 62 and 67, gears 69 and 71, tree 60 and 67 and 20 and 37; gears, diffuse,
+// 114 and 89, bunny 146 and 97, interior 293 and 164 (AMD EPYC, family 26, model 2, 2026-12-01; docs/decisions/0025).
+constexpr double shortest_in_order = 75.0;
 
-// That is told by the first of them, a sixteenth and at most so many: 16 blocks of 2,048, of which the quickest quarter is believed.
+// That is told by the first of them, a sixteenth and at most so many: eight blocks of 512, of which the quickest is believed. In random order
+// one tells of all.
 constexpr std::uint64_t trial_part = 16;
-constexpr std::uint64_t most_on_trial = 32768;
+constexpr std::uint64_t most_on_trial = 4096;
 
 // Rays are in order already where less than this part of them changes cell or octant. Bunny, igea and teapot: of 10^6 camera rays 0.03 do, of
 // 10^4 0.32; of shadow rays from the hits of as many 0.09 to 0.11 and 0.6 to 0.8; of diffuse rays from them 0.9 and more (2026-12-01).
@@ -104,10 +105,13 @@ std::uint64_t batch_block(std::uint64_t rays, unsigned threads, std::size_t at_a
     return std::min(std::max(even / blocks_per_thread, fewest), most);
 }
 
-std::uint64_t ordering_trial(std::uint64_t rays, std::size_t at_a_time) {
-    if (rays < (at_a_time > 1 ? fewest_in_order_of_many : fewest_in_order)) return 0;
-    return std::min(rays / trial_part, most_on_trial);
+bool may_pay_to_order(std::uint64_t rays, std::uint64_t structure_bytes, std::uint64_t cache_bytes) {
+    return rays >= fewest_in_order && structure_bytes > cache_bytes;
 }
+
+std::uint64_t ordering_trial(std::uint64_t rays) { return std::min(rays / trial_part, most_on_trial); }
+
+bool is_worth_timing(std::uint64_t rays) { return rays >= fewest_rays_of_thread; }
 
 bool worth_ordering(double ns_per_ray) { return ns_per_ray >= shortest_in_order; }
 

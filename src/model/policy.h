@@ -50,15 +50,21 @@ unsigned batch_threads(std::uint64_t rays, unsigned threads, std::uint64_t fewes
 std::uint64_t batch_block(std::uint64_t rays, unsigned threads, std::size_t at_a_time,
                           std::uint64_t fewest = fewest_rays_of_thread);
 
-// The most rays that are put in order together, for 80 bytes of memory each. Windows of a quarter of a million made rays in random order 5 to
-// 20 % slower: docs/decisions/0014-batches-in-order.md.
+// The most rays that are put in order together, for 48 bytes of memory each, 80 where they are float64. Windows of a quarter of a million
+// made rays in random order 5 to 20 % slower: docs/decisions/0014-batches-in-order.md.
 inline constexpr std::size_t ordering_window = std::size_t{1} << 20;
 
-// How many of a window's rays are traced as they come, to tell whether ordering the others pays; 0: it does not for so few.
-std::uint64_t ordering_trial(std::uint64_t rays, std::size_t at_a_time);
+// Whether putting so many rays in order may pay with a structure of that size, where the first-level cache has that size; 0: not known.
+bool may_pay_to_order(std::uint64_t rays, std::uint64_t structure_bytes, std::uint64_t cache_bytes);
+
+// Then so many of them are traced as they come, to tell whether it does pay with the others.
+std::uint64_t ordering_trial(std::uint64_t rays);
 
 // Whether rays that take so long each as they come, in nanoseconds of one thread, are put in order.
 bool worth_ordering(double ns_per_ray);
+
+// Whether a block of so many rays tells how long one takes.
+bool is_worth_timing(std::uint64_t rays);
 
 // Whether rays of which so many are in another cell or octant than the one before are in order already.
 bool is_coherent(std::size_t changes, std::size_t rays);

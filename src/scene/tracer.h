@@ -29,8 +29,8 @@ struct Hit {
 };
 
 // Of the triangle that was hit, of unit length; zero for a miss.
-inline Vec3 normal_of(const Hit& hit, const Primitives& primitives) {
-    return hit.is_hit() ? unit_normal(primitives.meshes()[hit.geometry]->corners(hit.primitive)) : Vec3(0.0);
+inline Vec3 normal_of(const PrimitiveHit& hit, const Primitives& primitives) {
+    return hit.is_hit() ? unit_normal(primitives.corners(hit.primitive)) : Vec3(0.0);
 }
 
 // What has been asked so far. Counted with relaxed atomics: figures for people, nothing depends on them.
@@ -51,14 +51,14 @@ public:
     bool any(const Ray& ray, const Query& query = {}) const { return counted(ray, accel_->any(ray, query)); }
     bool any(const RayF& ray, const Query& query = {}) const { return counted(ray, accel_->any_f32(ray, query)); }
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
-    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const {
-        all_many({&ray, &query, 1}, &hits);
-    }
+    void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const;
 
-    // The same for many rays, answer i that of ray i. Each returns how many of the rays hold a NaN.
-    std::uint64_t closest_many(const RayPacket& rays, Hit* hits, Scratch& scratch) const;
-    std::uint64_t any_many(const RayPacket& rays, bool* found, Scratch& scratch) const;
-    std::uint64_t all_many(const RayPacket& rays, std::vector<Hit>* hits) const;
+    // The same for many rays, answer i that of ray i, as structures give it. Each returns how many of the rays hold a NaN.
+    template <class AnyRay>
+    std::uint64_t closest_many(const PacketOf<AnyRay>& rays, PrimitiveHit* hits, Scratch& scratch) const;
+    template <class AnyRay>
+    std::uint64_t any_many(const PacketOf<AnyRay>& rays, bool* found, Scratch& scratch) const;
+    std::uint64_t all_many(const RayPacket& rays, std::vector<PrimitiveHit>* hits) const;
     std::size_t rays_at_a_time() const { return accel_->rays_at_a_time(); }
 
     const Primitives& primitives() const { return *primitives_; }
@@ -67,7 +67,6 @@ public:
     const std::shared_ptr<const Accel>& shared_accel() const { return accel_; }
     Usage& usage() const { return *usage_; }
 
-private:
     // What a structure answers, as the caller sees it.
     Hit to_caller(const PrimitiveHit& hit) const {
         if (!hit.is_hit()) return {};
@@ -75,6 +74,7 @@ private:
         return {hit.t, hit.u, hit.v, invalid_id, id.geometry, id.primitive};
     }
 
+private:
     template <class AnyRay>
     Hit to_caller(const AnyRay& ray, const PrimitiveHit& hit) const {
         if (!hit.is_hit()) count_invalid(ray);
@@ -93,7 +93,8 @@ private:
         usage_->invalid_rays.fetch_add(1, std::memory_order_relaxed);
         return 1;
     }
-    std::uint64_t count_invalid_of(const RayPacket& rays) const;
+    template <class AnyRay>
+    std::uint64_t count_invalid_of(const PacketOf<AnyRay>& rays) const;
 
     std::shared_ptr<const Primitives> primitives_;
     std::shared_ptr<const Accel> accel_;

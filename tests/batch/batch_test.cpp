@@ -2,6 +2,7 @@
 
 #include "model/policy.h"
 #include "rays.h"
+#include "records.h"
 #include "scene/testing.h"
 
 #include <gtest/gtest.h>
@@ -13,22 +14,6 @@ namespace raywise {
 namespace {
 
 using namespace testing;
-
-// Answers in the layout of the double precision outputs, one struct per ray.
-struct Record {
-    double t, uv[2], normal[3];
-    std::uint32_t instance, geometry, primitive, filler;
-};
-
-HitArrays outputs(std::vector<Record>& records) {
-    const auto field = [&](auto Record::*member, Scalar scalar) {
-        return OutputArray{reinterpret_cast<std::byte*>(&(records.data()->*member)), sizeof(Record),
-                           static_cast<std::ptrdiff_t>(size_of(scalar)), scalar};
-    };
-    return {field(&Record::t, Scalar::float64),       field(&Record::uv, Scalar::float64),
-            field(&Record::normal, Scalar::float64),  field(&Record::instance, Scalar::uint32),
-            field(&Record::geometry, Scalar::uint32), field(&Record::primitive, Scalar::uint32)};
-}
 
 std::shared_ptr<Scene> scene() {
     static const auto shared = make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()));
@@ -43,7 +28,9 @@ std::vector<Ray> rays_with_faults(std::size_t count) {
 }
 
 bool is_hit_of(const Record& r, const Hit& hit) {
-    const Vec3 normal = normal_of(hit, scene()->tracer().primitives());
+    const Vec3 normal = hit.is_hit()
+                            ? unit_normal(scene()->tracer().primitives().meshes()[hit.geometry]->corners(hit.primitive))
+                            : Vec3(0.0);
     return same_bits(hit, {r.t, r.uv[0], r.uv[1], r.instance, r.geometry, r.primitive}) &&
            std::memcmp(r.normal, &normal, sizeof normal) == 0;
 }
@@ -51,6 +38,7 @@ bool is_hit_of(const Record& r, const Hit& hit) {
 constexpr RayOrdering orderings[] = {RayOrdering::where_it_pays, RayOrdering::always, RayOrdering::never};
 
 TEST(Batch, GivesTheBitsOfSingleRaysByEveryStructureOnAnyNumberOfThreads) {
+    BatchWorkspace workspace; // for one after the other
     for (const Structure structure : all_structures()) {
         SCOPED_TRACE(name_of(structure));
         const auto forced = make_scene(make_soup(1000), std::make_shared<const Profile>(generic_profile()),
@@ -63,8 +51,8 @@ TEST(Batch, GivesTheBitsOfSingleRaysByEveryStructureOnAnyNumberOfThreads) {
                 for (const unsigned threads : {1u, 2u, 5u}) {
                     std::vector<Record> records(rays.size());
                     const std::uint64_t invalid_before = forced->tracer().usage().invalid_rays;
-                    EXPECT_EQ(intersect_batch(forced->tracer(), arrays_of(rays), outputs(records), Parallel(threads),
-                                              {}, ordering),
+                    EXPECT_EQ(intersect_batch(forced->tracer(), arrays_of(rays), outputs(records),
+                                              options_of(threads, ordering, &workspace)),
                               count / 10);
                     EXPECT_EQ(forced->tracer().usage().invalid_rays - invalid_before, count / 10);
                     for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(is_hit_of(records[i], expected[i])) << i;
@@ -79,7 +67,7 @@ TEST(Batch, TellsOfAnyHitAsSingleRaysDo) {
     for (const RayOrdering ordering : orderings) {
         std::vector<std::uint8_t> occluded(rays.size(), 9);
         const OutputArray output{reinterpret_cast<std::byte*>(occluded.data()), 1, 1, Scalar::uint8};
-        EXPECT_EQ(occluded_batch(scene()->tracer(), arrays_of(rays), output, Parallel(2), {}, ordering), 2000u);
+        EXPECT_EQ(occluded_batch(scene()->tracer(), arrays_of(rays), output, options_of(2, ordering)), 2000u);
         for (std::size_t i = 0; i < rays.size(); ++i)
             ASSERT_EQ(occluded[i], scene()->tracer().any(rays[i]) ? 1 : 0) << i;
     }
@@ -94,7 +82,7 @@ TEST(Batch, SkipsWithEachRayWhatItIsToldTo) {
     arrays.skip.primitive = {reinterpret_cast<const std::byte*>(skipped.data()), 4, 4, Scalar::uint32};
     for (const RayOrdering ordering : orderings) {
         std::vector<Record> records(rays.size());
-        intersect_batch(scene()->tracer(), arrays, outputs(records), Parallel(2), {}, ordering);
+        intersect_batch(scene()->tracer(), arrays, outputs(records), options_of(2, ordering));
         for (std::size_t i = 0; i < rays.size(); ++i) {
             std::vector<std::uint32_t> numbers;
             if (skipped[i] != invalid_id) numbers.push_back(skipped[i]);
@@ -112,7 +100,7 @@ TEST(Batch, GoesOnAfterAFullWindow) {
         std::vector<std::uint32_t> primitive(rays.size(), 7);
         HitArrays hits;
         hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
-        intersect_batch(scene()->tracer(), arrays_of(rays), hits, Parallel(2), {}, ordering);
+        intersect_batch(scene()->tracer(), arrays_of(rays), hits, options_of(2, ordering));
         for (std::size_t i = 0; i < 1000; ++i) ASSERT_EQ(primitive[i], scene()->tracer().closest(rays[i]).primitive);
         for (std::size_t i = 1000; i < count; ++i) ASSERT_EQ(primitive[i], primitive[i * 7 % 1000]) << i;
     }
@@ -124,7 +112,7 @@ TEST(Batch, WritesNothingBeyondItsElements) {
     HitArrays out = outputs(records);
     for (OutputArray* field : {&out.t, &out.uv, &out.normal, &out.instance, &out.geometry, &out.primitive})
         field->data += sizeof(Record);
-    intersect_batch(scene()->tracer(), arrays_of(rays), out, Parallel(2));
+    intersect_batch(scene()->tracer(), arrays_of(rays), out, options_of(2));
     for (const Record& r : {records.front(), records.back()}) {
         EXPECT_EQ(r.t, -7);
         EXPECT_EQ(r.primitive, 7u);
@@ -139,7 +127,7 @@ TEST(Batch, ConvertsToTheOutputsTypes) {
     HitArrays out;
     out.t = {reinterpret_cast<std::byte*>(t.data()), 4, 4, Scalar::float32};
     out.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 8, 8, Scalar::uint64};
-    intersect_batch(scene()->tracer(), arrays_of(rays), out, Parallel(1));
+    intersect_batch(scene()->tracer(), arrays_of(rays), out, options_of(1));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit hit = scene()->tracer().closest(rays[i]);
         EXPECT_EQ(t[i], static_cast<float>(hit.t));
@@ -148,19 +136,48 @@ TEST(Batch, ConvertsToTheOutputsTypes) {
     }
 }
 
+TEST(Batch, RefusesAWorkspaceThatIsInUse) {
+    const std::vector<Ray> rays = make_chords(300);
+    BatchWorkspace workspace;
+    std::vector<Record> records(rays.size());
+    BatchOptions options = options_of(1, RayOrdering::where_it_pays, &workspace);
+    int refusals = 0;
+    options.watch.progress = [&](double, const char*) {
+        std::vector<Record> others(rays.size());
+        try {
+            intersect_batch(scene()->tracer(), arrays_of(rays), outputs(others),
+                            options_of(1, RayOrdering::never, &workspace));
+        } catch (const Error& error) {
+            EXPECT_EQ(error.status(), Status::ERROR_IN_USE);
+            EXPECT_STREQ(error.what(), "options.workspace: another batch is using it");
+            ++refusals;
+        }
+        return false;
+    };
+    intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), options);
+    EXPECT_GE(refusals, 2); // the first look and the last
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        ASSERT_TRUE(is_hit_of(records[i], scene()->tracer().closest(rays[i])));
+    // Free again, even after a batch that was stopped.
+    options.watch.progress = [](double, const char*) { return true; };
+    EXPECT_THROW(intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), options), Error);
+    options.watch.progress = {};
+    intersect_batch(scene()->tracer(), arrays_of(rays), outputs(records), options);
+}
+
 TEST(Batch, FindsAllHitsInOrder) {
     for (const RayOrdering ordering : orderings) {
         const std::vector<Ray> rays = rays_with_faults(300);
         std::vector<std::uint64_t> offsets(rays.size() + 1);
         std::uint64_t needed = 0;
-        EXPECT_EQ(intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed, Parallel(2),
-                                      {}, ordering),
+        EXPECT_EQ(intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), {}, 0, needed,
+                                      options_of(2, ordering)),
                   rays.size() / 10);
         ASSERT_GT(needed, 0u);
         EXPECT_EQ(offsets.back(), needed);
         std::vector<Record> records(needed);
         intersect_all_batch(scene()->tracer(), arrays_of(rays), offsets.data(), outputs(records), needed, needed,
-                            Parallel(2));
+                            options_of(2));
         std::vector<Hit> expected;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             scene()->tracer().all(rays[i], expected);
@@ -178,8 +195,8 @@ TEST(Batch, FindsAllHitsInOrder) {
 TEST(Batch, OfNoRaysIsNoTrouble) {
     std::vector<std::uint64_t> offsets(1, 99);
     std::uint64_t needed = 99;
-    EXPECT_EQ(intersect_batch(scene()->tracer(), {}, {}, Parallel(2)), 0u);
-    intersect_all_batch(scene()->tracer(), {}, offsets.data(), {}, 0, needed, Parallel(2));
+    EXPECT_EQ(intersect_batch(scene()->tracer(), {}, {}, options_of(2)), 0u);
+    intersect_all_batch(scene()->tracer(), {}, offsets.data(), {}, 0, needed, options_of(2));
     EXPECT_EQ(needed, 0u);
     EXPECT_EQ(offsets[0], 0u);
 }

@@ -14,11 +14,12 @@ namespace {
 
 using namespace testing;
 
-std::vector<std::uint32_t> keys_of(const RayKeys& keys, const std::vector<Ray>& rays) {
+template <class AnyRay>
+std::vector<std::uint32_t> keys_of(const RayKeys& keys, const std::vector<AnyRay>& rays) {
     std::vector<std::uint32_t> result;
     for (std::size_t begin = 0; begin < rays.size(); begin += RayKeys::most) {
         const std::size_t n = std::min(RayKeys::most, rays.size() - begin);
-        Ray block[RayKeys::most];
+        AnyRay block[RayKeys::most];
         std::uint32_t of_block[RayKeys::most];
         std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(begin), n, block);
         keys.of(block, n, of_block);
@@ -36,8 +37,11 @@ TEST(RayKeys, HaveTheOctantOnTop) {
     on_every_target([] {
         const std::vector<Ray> rays = random_rays(1000, 2);
         const std::vector<std::uint32_t> keys = keys_of(RayKeys(unit_box), rays);
-        for (std::size_t i = 0; i < rays.size(); ++i)
+        const std::vector<std::uint32_t> keys_f32 = keys_of(RayKeys(unit_box), narrowed(rays));
+        for (std::size_t i = 0; i < rays.size(); ++i) {
             ASSERT_EQ(keys[i] >> (RayKeys::bits - 3), static_cast<std::uint32_t>(octant(rays[i])));
+            ASSERT_EQ(keys_f32[i] >> (RayKeys::bits - 3), static_cast<std::uint32_t>(octant(rays[i])));
+        }
     });
 }
 
@@ -73,12 +77,27 @@ TEST(RayKeys, RaysFromAfarGoByWhereTheyEnter) {
     });
 }
 
+TEST(RayKeys, OfFloat32AreThoseOfFloat64ButForRounding) {
+    on_every_target([] {
+        const std::vector<RayF> rays = narrowed(random_rays(5000, 7));
+        std::vector<Ray> wide;
+        for (const RayF& ray : rays) wide.push_back(widened(ray));
+        const RayKeys scene(Box{Vec3(-0.7, -1.1, -0.3), Vec3(0.9, 1.2, 1.7)});
+        const std::vector<std::uint32_t> keys = keys_of(scene, wide);
+        const std::vector<std::uint32_t> keys_f32 = keys_of(scene, rays);
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) same += keys[i] == keys_f32[i] ? 1 : 0;
+        EXPECT_GT(same, rays.size() * 99 / 100);
+    });
+}
+
 TEST(RayKeys, TakeAnyNumbers) {
     on_every_target([] {
         const std::vector<Ray> rays = rays_of_any_numbers(4000);
         for (const Box& box : {unit_box, Box{}, Box{Vec3(0.0), Vec3(0.0)}, Box{Vec3(-1e308), Vec3(1e308)},
                                Box{Vec3(0.0), Vec3(1e-320)}}) {
             for (const std::uint32_t key : keys_of(RayKeys(box), rays)) ASSERT_LT(key, 1u << RayKeys::bits);
+            for (const std::uint32_t key : keys_of(RayKeys(box), narrowed(rays))) ASSERT_LT(key, 1u << RayKeys::bits);
         }
     });
 }

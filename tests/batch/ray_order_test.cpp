@@ -21,7 +21,7 @@ std::vector<std::uint32_t> random_keys(std::size_t count, std::uint32_t below) {
 TEST(RayOrder, IsThatOfAStableSort) {
     for (const unsigned threads : {1u, 2u, 5u}) {
         const Parallel parallel(threads);
-        RayOrder order(parallel);
+        RayOrder order;
         for (const std::size_t count : {0u, 1u, 2u, 100u, 5000u, 3u, 200000u, 70000u}) {
             for (const std::uint32_t below : {1u, 50u, 1u << RayKeys::bits}) {
                 const std::vector<std::uint32_t> keys = random_keys(count, below);
@@ -30,7 +30,7 @@ TEST(RayOrder, IsThatOfAStableSort) {
                 std::stable_sort(expected.begin(), expected.end(),
                                  [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
                 std::copy(keys.begin(), keys.end(), order.keys(count));
-                const std::uint32_t* const numbers = order.sort();
+                const std::uint32_t* const numbers = order.sort(parallel);
                 ASSERT_TRUE(std::equal(expected.begin(), expected.end(), numbers)) << count << " below " << below;
             }
         }

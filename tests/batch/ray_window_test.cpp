@@ -13,31 +13,21 @@ namespace {
 
 using namespace testing;
 
-bool same_bits(const Ray& a, const Ray& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-// Two triangles across the unit box, whose normals differ.
-Primitives make_primitives() {
-    static const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 1, 1, 0, 0, 1};
-    TriangleArrays arrays;
-    arrays.vertex_count = 6;
-    arrays.triangle_count = 2;
-    arrays.vertices = {reinterpret_cast<const std::byte*>(vertices), 12, 4, Scalar::float32};
-    return Primitives({std::make_shared<const TriangleMesh>(arrays, true, false)});
-}
-const Primitives primitives = make_primitives();
 const BatchWatch unwatched;
 
 // Reads all rays of a window, part by part, and looks whether each comes once.
-void expect_all_of(RayWindow& window, const std::vector<Ray>& rays, std::uint64_t first, std::size_t count) {
+template <class AnyRay>
+void expect_all_of(const RayWindow<AnyRay>& window, const std::vector<AnyRay>& rays, std::uint64_t first,
+                   std::size_t count) {
     std::set<std::uint64_t> seen;
     const Elements& elements = window.elements();
     ASSERT_EQ(elements.count(), count);
     for (std::size_t begin = 0; begin < count; begin += 1000) {
         const Elements part = elements.part(begin, std::min<std::size_t>(1000, count - begin));
-        std::vector<Ray> read(part.count());
+        std::vector<AnyRay> read(part.count());
         window.read(part, read.data());
         for (std::size_t k = 0; k < part.count(); ++k) {
-            ASSERT_TRUE(same_bits(read[k], rays[part[k]]));
+            ASSERT_EQ(std::memcmp(&read[k], &rays[part[k]], sizeof read[k]), 0);
             ASSERT_GE(part[k], first);
             ASSERT_LT(part[k], first + count);
             ASSERT_TRUE(seen.insert(part[k]).second);
@@ -52,13 +42,14 @@ bool is_in_callers_order(const Elements& elements) {
     return true;
 }
 
-TEST(RayWindow, HasEveryRayOnce) {
-    const std::vector<Ray> rays = random_rays(70000, 1);
+template <class AnyRay>
+void expect_every_ray_once(const std::vector<AnyRay>& rays) {
     const RayArrays arrays = arrays_of(rays);
+    WindowMemory memory; // for one window after the other
     for (const unsigned threads : {1u, 3u}) {
         const Parallel parallel(threads);
         BatchProgress progress(unwatched, rays.size(), parallel);
-        RayWindow window(arrays, primitives, parallel, progress);
+        RayWindow<AnyRay> window(arrays, unit_box, parallel, progress, memory);
         window.move_to(0, 20000, true);
         EXPECT_FALSE(is_in_callers_order(window.elements()));
         expect_all_of(window, rays, 0, 20000);
@@ -69,57 +60,42 @@ TEST(RayWindow, HasEveryRayOnce) {
         window.move_to(300, 5000, false);
         EXPECT_TRUE(is_in_callers_order(window.elements()));
         expect_all_of(window, rays, 300, 5000);
+        window.move_to(300, 0, true);
+        expect_all_of(window, rays, 300, 0);
     }
 }
 
-TEST(RayWindow, LeavesRaysOfACameraInTheirOrder) {
-    const std::vector<Ray> rays = camera_rays(400, 100);
-    const RayArrays arrays = arrays_of(rays);
+TEST(RayWindow, HasEveryRayOnce) { expect_every_ray_once(random_rays(70000, 1)); }
+TEST(RayWindow, HasEveryRayOfFloat32Once) { expect_every_ray_once(narrowed(random_rays(70000, 1))); }
+
+TEST(RayWindow, KnowsRaysOfACameraFromOthers) {
     const Parallel parallel(2);
-    BatchProgress progress(unwatched, rays.size(), parallel);
-    RayWindow window(arrays, primitives, parallel, progress);
-    window.move_to(0, rays.size(), true);
-    EXPECT_TRUE(is_in_callers_order(window.elements()));
+    WindowMemory memory;
+    for (const bool of_camera : {true, false}) {
+        const std::vector<RayF> rays = narrowed(of_camera ? camera_rays(400, 100) : random_rays(40000, 2));
+        const RayArrays arrays = arrays_of(rays);
+        BatchProgress progress(unwatched, rays.size(), parallel);
+        const RayWindow<RayF> window(arrays, unit_box, parallel, progress, memory);
+        EXPECT_EQ(window.come_in_order(0, rays.size()), of_camera);
+    }
 }
 
-TEST(RayWindow, WritesHitsToTheirRays) {
-    const std::vector<Ray> rays = random_rays(10000, 6);
+TEST(RayWindow, OrdersAlikeOnAnyNumberOfThreads) {
+    const std::vector<RayF> rays = narrowed(random_rays(60000, 3));
     const RayArrays arrays = arrays_of(rays);
-    const Parallel parallel(2);
-    for (const bool in_order : {false, true}) {
-        std::vector<double> t(rays.size(), -1.0);
-        std::vector<std::uint32_t> primitive(rays.size(), 7);
-        std::vector<Vec3> normal(rays.size(), Vec3(5.0));
-        HitArrays hits;
-        hits.t = {reinterpret_cast<std::byte*>(t.data()), 8, 8, Scalar::float64};
-        hits.primitive = {reinterpret_cast<std::byte*>(primitive.data()), 4, 4, Scalar::uint32};
-        hits.normal = {reinterpret_cast<std::byte*>(normal.data()), sizeof(Vec3), 8, Scalar::float64};
+    std::vector<std::uint64_t> before;
+    for (const unsigned threads : {1u, 2u, 5u}) {
+        const Parallel parallel(threads);
         BatchProgress progress(unwatched, rays.size(), parallel);
-        RayWindow window(arrays, primitives, parallel, progress);
-        const std::uint64_t first = 100;
-        const std::size_t count = 9800;
-        window.move_to(first, count, in_order);
-        for (std::size_t begin = 0; begin < count; begin += 700) {
-            const Elements part = window.elements().part(begin, std::min<std::size_t>(700, count - begin));
-            std::vector<Ray> read(part.count());
-            window.read(part, read.data());
-            std::vector<Hit> found(part.count());
-            for (std::size_t k = 0; k < part.count(); ++k) {
-                found[k].t = read[k].origin.x;
-                if (part[k] % 3 == 2) continue; // a miss
-                found[k].geometry = 0;
-                found[k].primitive = static_cast<std::uint32_t>(part[k] % 3);
-            }
-            window.write(part, found.data(), hits);
+        WindowMemory memory;
+        RayWindow<RayF> window(arrays, unit_box, parallel, progress, memory);
+        window.move_to(1000, 50000, true);
+        std::vector<std::uint64_t> order;
+        for (std::size_t k = 0; k < window.elements().count(); ++k) order.push_back(window.elements()[k]);
+        if (!before.empty()) {
+            EXPECT_EQ(order, before);
         }
-        window.finish(hits);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const bool within = i >= first && i < first + count;
-            ASSERT_EQ(t[i], within ? rays[i].origin.x : -1.0) << i;
-            ASSERT_EQ(primitive[i], !within ? 7u : i % 3 == 2 ? invalid_id : i % 3) << i;
-            const Vec3 right = i % 3 == 2 ? Vec3(0.0) : unit_normal(primitives.corners(i % 3));
-            ASSERT_EQ(normal[i], within ? right : Vec3(5.0)) << i;
-        }
+        before = order;
     }
 }
 

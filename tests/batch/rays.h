@@ -58,12 +58,25 @@ inline std::vector<Ray> rays_of_any_numbers(std::size_t count) {
     return rays;
 }
 
-inline RayArrays arrays_of(const std::vector<Ray>& rays) {
-    const auto field = [&](auto Ray::*member) {
-        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(Ray), 8,
-                            Scalar::float64};
+// Rounded to float32.
+inline std::vector<RayF> narrowed(const std::vector<Ray>& rays) {
+    std::vector<RayF> narrow;
+    for (const Ray& ray : rays) {
+        narrow.push_back({glm::vec3(ray.origin), static_cast<float>(ray.tmin), glm::vec3(ray.direction),
+                          static_cast<float>(ray.tmax)});
+    }
+    return narrow;
+}
+
+template <class T>
+RayArrays arrays_of(const std::vector<CallerRay<T>>& rays) {
+    using AnyRay = CallerRay<T>;
+    const auto field = [&](auto AnyRay::*member) {
+        return StridedArray{reinterpret_cast<const std::byte*>(&(rays.data()->*member)), sizeof(AnyRay), sizeof(T),
+                            sizeof(T) == 4 ? Scalar::float32 : Scalar::float64};
     };
-    return {rays.size(), field(&Ray::origin), field(&Ray::direction), field(&Ray::tmin), field(&Ray::tmax), {}};
+    return {rays.size(),          field(&AnyRay::origin), field(&AnyRay::direction),
+            field(&AnyRay::tmin), field(&AnyRay::tmax),   {}};
 }
 
 } // namespace raywise::testing

@@ -117,26 +117,32 @@ TEST(Policy, CutsABatchIntoABlockForEachThreadOrMore) {
     }
 }
 
+TEST(Policy, MayOrderManyRaysWhereTheStructureIsLargerThanTheFirstCache) {
+    EXPECT_FALSE(may_pay_to_order(4095, 1'000'000, 48'000));
+    EXPECT_TRUE(may_pay_to_order(4096, 1'000'000, 48'000));
+    EXPECT_FALSE(may_pay_to_order(4096, 48'000, 48'000));
+    EXPECT_TRUE(may_pay_to_order(4096, 48'001, 48'000));
+    EXPECT_TRUE(may_pay_to_order(4096, 1, 0)); // of a cache that nobody knows
+}
+
 TEST(Policy, TriesASixteenthOfTheRaysBeforeOrderingTheOthers) {
-    EXPECT_EQ(ordering_trial(4095, 1), 0u);
-    EXPECT_EQ(ordering_trial(4096, 1), 256u);
-    EXPECT_EQ(ordering_trial(16'383, 2048), 0u);
-    EXPECT_EQ(ordering_trial(16'384, 2048), 1024u);
-    EXPECT_EQ(ordering_trial(ordering_window, 2048), 32'768u);
-    for (const std::size_t at_a_time : {1u, 64u, 2048u}) {
-        std::uint64_t before = 0;
-        for (const std::uint64_t rays : counts()) {
-            const std::uint64_t trial = ordering_trial(rays, at_a_time);
-            EXPECT_GE(trial, before);
-            EXPECT_LT(trial, rays);
-            before = trial;
-        }
+    EXPECT_EQ(ordering_trial(4096), 256u);
+    EXPECT_EQ(ordering_trial(65'536), 4096u);
+    EXPECT_EQ(ordering_trial(ordering_window), 4096u);
+    std::uint64_t before = 0;
+    for (const std::uint64_t rays : counts()) {
+        const std::uint64_t trial = ordering_trial(rays);
+        EXPECT_GE(trial, before);
+        EXPECT_LT(trial, rays);
+        before = trial;
     }
+    EXPECT_TRUE(is_worth_timing(ordering_trial(4096)));
+    EXPECT_FALSE(is_worth_timing(64));
 }
 
 TEST(Policy, OrdersSlowRaysThatComeInNoOrder) {
-    EXPECT_FALSE(worth_ordering(169.9));
-    EXPECT_TRUE(worth_ordering(170.0));
+    EXPECT_FALSE(worth_ordering(74.9));
+    EXPECT_TRUE(worth_ordering(75.0));
     EXPECT_TRUE(is_coherent(0, 100));
     EXPECT_TRUE(is_coherent(24, 100));
     EXPECT_FALSE(is_coherent(25, 100));

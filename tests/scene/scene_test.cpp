@@ -110,21 +110,47 @@ TEST(Scene, AnswersManyRaysAsItDoesEach) {
             const RayPacket packet{rays.data(), skips ? queries.data() : nullptr, rays.size()};
             const std::uint64_t before = tracer.usage().invalid_rays;
             Scratch scratch;
-            auto* const closest = scratch.take<Hit>(rays.size());
+            auto* const closest = scratch.take<PrimitiveHit>(rays.size());
             auto* const any = scratch.take<bool>(rays.size());
-            std::vector<std::vector<Hit>> all(rays.size(), std::vector<Hit>(2)); // replaced
+            std::vector<std::vector<PrimitiveHit>> all(rays.size(), std::vector<PrimitiveHit>(2)); // replaced
             EXPECT_EQ(tracer.closest_many(packet, closest, scratch), 100u);
             EXPECT_EQ(tracer.any_many(packet, any, scratch), 100u);
             EXPECT_EQ(tracer.all_many(packet, all.data()), 100u);
             EXPECT_EQ(tracer.usage().invalid_rays - before, 300u);
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                EXPECT_TRUE(same_bits(closest[i], tracer.closest(rays[i], packet.query(i)))) << i;
+                EXPECT_TRUE(same_bits(tracer.to_caller(closest[i]), tracer.closest(rays[i], packet.query(i)))) << i;
                 EXPECT_EQ(any[i], tracer.any(rays[i], packet.query(i))) << i;
                 std::vector<Hit> expected;
                 tracer.all(rays[i], expected, packet.query(i));
                 ASSERT_EQ(all[i].size(), expected.size()) << i;
-                for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_TRUE(same_bits(all[i][k], expected[k])) << i;
+                for (std::size_t k = 0; k < expected.size(); ++k)
+                    EXPECT_TRUE(same_bits(tracer.to_caller(all[i][k]), expected[k])) << i;
             }
+        }
+    }
+}
+
+TEST(Scene, AnswersManyRaysOfFloat32AsItDoesEach) {
+    std::vector<RayF> rays;
+    for (const Ray& ray : make_chords(300))
+        rays.push_back({glm::vec3(ray.origin), static_cast<float>(ray.tmin), glm::vec3(ray.direction), 1e30f});
+    for (std::size_t i = 0; i < rays.size(); i += 3) rays[i].direction.y = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 1; i < rays.size(); i += 30) rays[i].direction = glm::vec3(0.0f);
+    for (const Structure structure : all_structures()) {
+        SCOPED_TRACE(name_of(structure));
+        const auto scene = make_scene(make_soup(500), generic(), [&](Scene& s) { s.set_structure(structure); });
+        const Tracer& tracer = scene->tracer();
+        const RayPacketF packet{rays.data(), nullptr, rays.size()};
+        const std::uint64_t before = tracer.usage().invalid_rays;
+        Scratch scratch;
+        auto* const closest = scratch.take<PrimitiveHit>(rays.size());
+        auto* const any = scratch.take<bool>(rays.size());
+        EXPECT_EQ(tracer.closest_many(packet, closest, scratch), 100u);
+        EXPECT_EQ(tracer.any_many(packet, any, scratch), 100u);
+        EXPECT_EQ(tracer.usage().invalid_rays - before, 200u);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            EXPECT_TRUE(same_bits(tracer.to_caller(closest[i]), tracer.closest(widened(rays[i])))) << i;
+            EXPECT_EQ(any[i], tracer.any(widened(rays[i]))) << i;
         }
     }
 }
@@ -162,7 +188,7 @@ TEST(Scene, NamesMeshAndTriangleOfAHit) {
         const Vec3 on_triangle = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
         const Vec3 on_ray = ray.origin + hit.t * ray.direction;
         EXPECT_LT(glm::length(on_triangle - on_ray), 1e-12);
-        const Vec3 normal = normal_of(hit, scene.tracer().primitives());
+        const Vec3 normal = unit_normal(scene.tracer().primitives().meshes()[hit.geometry]->corners(hit.primitive));
         EXPECT_NEAR(glm::length(normal), 1.0, 1e-14);
         EXPECT_NEAR(glm::dot(normal, b - a), 0.0, 1e-7);
         EXPECT_GT(glm::dot(normal, glm::cross(b - a, c - a)), 0.0);

@@ -134,8 +134,9 @@ RW_API int32_t rw_abi_version(uint32_t *abi);
 #define RW_ERROR_RESERVED 29      /* a reserved member is not zero */
 #define RW_ERROR_OVERLAP 30       /* the strides of an output let its elements overlap, or repeat one */
 #define RW_ERROR_SHARED_MEMORY 31 /* a byte belongs to two outputs, or to an output and to the rays */
+#define RW_ERROR_IN_USE 32        /* a workspace serves one batch at a time */
 
-#define RW_STATUS_COUNT 32
+#define RW_STATUS_COUNT 33
 
 /* Does: puts a status into words.
  * status: any value.

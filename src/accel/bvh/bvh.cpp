@@ -50,6 +50,14 @@ void Bvh::any_many(const RayPacket& rays, bool* found, Scratch& scratch) const {
     trace_any_many(tree_, rays, found, scratch);
 }
 
+void Bvh::closest_many_f32(const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) const {
+    trace_closest_many(tree_, rays, hits, scratch);
+}
+
+void Bvh::any_many_f32(const RayPacketF& rays, bool* found, Scratch& scratch) const {
+    trace_any_many(tree_, rays, found, scratch);
+}
+
 Refitted Bvh::refitted(const BuildInput& input, double most) const {
     std::optional<WideBvh> tree = refit(tree_, primitives_, input);
     if (!tree) return {nullptr, "a triangle that could not be hit before is not in the tree", 1.0};

@@ -24,6 +24,8 @@ public:
     std::size_t rays_at_a_time() const override { return 2048; } // as many as stay in the caches
     void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;
     void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const override;
+    void closest_many_f32(const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) const override;
+    void any_many_f32(const RayPacketF& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + tree_.bytes(); }
     Refitted refitted(const BuildInput& input, double most) const override;

@@ -29,18 +29,20 @@ namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Many rays set up for traversal.
+template <class AnyRay>
 struct StreamRays {
-    const Ray* rays;
+    const AnyRay* rays;
     TraversalRay* traversal;
     RayTime* times;
 };
 
 // Rays that all run in one octant, through one tree.
-template <class T, class Collector>
+template <class T, class AnyRay, class Collector>
 class Stream {
 public:
     // most: the most rays of one stream.
-    Stream(const WideBvh& bvh, const StreamRays& rays, Collector* collectors, std::size_t most, Scratch& scratch)
+    Stream(const WideBvh& bvh, const StreamRays<AnyRay>& rays, Collector* collectors, std::size_t most,
+           Scratch& scratch)
         : bvh_(bvh),
           rays_(rays),
           collectors_(collectors),
@@ -97,8 +99,8 @@ private:
         for (std::size_t k = 0; k < deferred_count_; ++k) {
             const auto [i, reference] = deferred_[k];
             if (is_done(collectors_[i])) continue;
-            TracedRay<T, Ray, Collector> traced{bvh_, rays_.rays[i], rays_.traversal[i], rays_.times[i],
-                                                collectors_[i]};
+            TracedRay<T, AnyRay, Collector> traced{bvh_, rays_.rays[i], rays_.traversal[i], rays_.times[i],
+                                                   collectors_[i]};
             const bool done = reference.is_leaf() ? traced.test_leaf(reference) : traverse(traced, reference);
             if (done) rays_.traversal[i].last = -std::numeric_limits<float>::max(); // it enters no box any more
         }
@@ -177,8 +179,9 @@ private:
                 }
                 const auto enters = hn::And(may_meet(d, entry, exit), present_rays);
                 std::uint32_t* const list = lists_ + i * list_capacity_ + counts[i];
-                counts[i] +=
-                    static_cast<std::uint32_t>(hn::CompressStore(numbers, hn::RebindMask(du, enters), du, list));
+                // Not CompressStore: where nothing is stored to a page that has not been written to, processors take a microsecond over it.
+                hn::StoreU(hn::Compress(numbers, hn::RebindMask(du, enters)), du, list);
+                counts[i] += static_cast<std::uint32_t>(hn::CountTrue(d, enters));
             }
         }
     }
@@ -204,7 +207,7 @@ private:
     static bool is_done(const AnyCollector& collector) { return collector.found(); }
 
     const WideBvh& bvh_;
-    const StreamRays& rays_;
+    const StreamRays<AnyRay>& rays_;
     Collector* const collectors_;
     const std::size_t list_capacity_;
     const std::size_t waiting_capacity_;
@@ -218,11 +221,12 @@ private:
 };
 
 // All rays in streams, one for each octant. collectors: of each ray.
-template <class T, class Collector>
-HWY_INLINE void trace_streams(const WideBvh& bvh, const RayPacket& packet, Collector* collectors, Scratch& scratch) {
+template <class T, class AnyRay, class Collector>
+HWY_INLINE void trace_streams(const WideBvh& bvh, const PacketOf<AnyRay>& packet, Collector* collectors,
+                              Scratch& scratch) {
     constexpr std::size_t octants = 8;
     const std::size_t count = packet.count;
-    const StreamRays rays{packet.rays, scratch.take<TraversalRay>(count), scratch.take<RayTime>(count)};
+    const StreamRays<AnyRay> rays{packet.rays, scratch.take<TraversalRay>(count), scratch.take<RayTime>(count)};
     std::uint32_t* indices[octants];
     std::uint32_t counts[octants] = {};
     for (std::uint32_t*& list : indices) list = scratch.take<std::uint32_t>(count);
@@ -233,7 +237,7 @@ HWY_INLINE void trace_streams(const WideBvh& bvh, const RayPacket& packet, Colle
     }
     const std::uint32_t most = *std::max_element(counts, counts + octants);
     if (most == 0) return;
-    Stream<T, Collector> stream(bvh, rays, collectors, most, scratch);
+    Stream<T, AnyRay, Collector> stream(bvh, rays, collectors, most, scratch);
     for (std::uint32_t octant = 0; octant < octants; ++octant) {
         if (counts[octant] > 0) stream.run(indices[octant], counts[octant], octant);
     }

@@ -60,8 +60,8 @@ void all_kernel(const WideBvh& bvh, const Ray& ray, AllCollector& collector) { t
 // A stream of fewer is not worth what it takes to make it ready.
 constexpr std::size_t smallest_stream = 32;
 
-template <class Collector>
-HWY_INLINE void trace_many(const WideBvh& bvh, const RayPacket& rays, Collector* collectors, Scratch& scratch) {
+template <class AnyRay, class Collector>
+HWY_INLINE void trace_many(const WideBvh& bvh, const PacketOf<AnyRay>& rays, Collector* collectors, Scratch& scratch) {
     if (bvh.nodes.empty()) return;
     if (rays.count < smallest_stream) {
         for (std::size_t i = 0; i < rays.count; ++i) trace(bvh, rays.rays[i], collectors[i]);
@@ -72,16 +72,31 @@ HWY_INLINE void trace_many(const WideBvh& bvh, const RayPacket& rays, Collector*
     }
 }
 
-void closest_many_kernel(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
+template <class AnyRay>
+HWY_INLINE void closest_many(const WideBvh& bvh, const PacketOf<AnyRay>& rays, PrimitiveHit* hits, Scratch& scratch) {
     const Collectors<ClosestCollector> collectors(rays, scratch);
     trace_many(bvh, rays, collectors.data(), scratch);
     for (std::size_t i = 0; i < rays.count; ++i) hits[i] = collectors[i].best();
 }
 
-void any_many_kernel(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch) {
+template <class AnyRay>
+HWY_INLINE void any_many(const WideBvh& bvh, const PacketOf<AnyRay>& rays, bool* found, Scratch& scratch) {
     const Collectors<AnyCollector> collectors(rays, scratch);
     trace_many(bvh, rays, collectors.data(), scratch);
     for (std::size_t i = 0; i < rays.count; ++i) found[i] = collectors[i].found();
+}
+
+void closest_many_kernel(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
+    closest_many(bvh, rays, hits, scratch);
+}
+void closest_many_f32_kernel(const WideBvh& bvh, const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) {
+    closest_many(bvh, rays, hits, scratch);
+}
+void any_many_kernel(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch) {
+    any_many(bvh, rays, found, scratch);
+}
+void any_many_f32_kernel(const WideBvh& bvh, const RayPacketF& rays, bool* found, Scratch& scratch) {
+    any_many(bvh, rays, found, scratch);
 }
 
 } // namespace
@@ -99,7 +114,9 @@ HWY_EXPORT(any_kernel);
 HWY_EXPORT(any_f32_kernel);
 HWY_EXPORT(all_kernel);
 HWY_EXPORT(closest_many_kernel);
+HWY_EXPORT(closest_many_f32_kernel);
 HWY_EXPORT(any_many_kernel);
+HWY_EXPORT(any_many_f32_kernel);
 
 PrimitiveHit trace_closest(const WideBvh& bvh, const Ray& ray, const Query& query) {
     return RW_DISPATCH(closest_kernel)(bvh, ray, query);
@@ -119,8 +136,14 @@ void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector) {
 void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
     HWY_DYNAMIC_DISPATCH(closest_many_kernel)(bvh, rays, hits, scratch);
 }
+void trace_closest_many(const WideBvh& bvh, const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(closest_many_f32_kernel)(bvh, rays, hits, scratch);
+}
 void trace_any_many(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch) {
     HWY_DYNAMIC_DISPATCH(any_many_kernel)(bvh, rays, found, scratch);
+}
+void trace_any_many(const WideBvh& bvh, const RayPacketF& rays, bool* found, Scratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(any_many_f32_kernel)(bvh, rays, found, scratch);
 }
 
 } // namespace raywise

@@ -14,6 +14,8 @@ bool trace_any(const WideBvh& bvh, const Ray& ray, const Query& query);
 bool trace_any(const WideBvh& bvh, const RayF& ray, const Query& query);
 void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector);
 void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch);
+void trace_closest_many(const WideBvh& bvh, const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch);
 void trace_any_many(const WideBvh& bvh, const RayPacket& rays, bool* found, Scratch& scratch);
+void trace_any_many(const WideBvh& bvh, const RayPacketF& rays, bool* found, Scratch& scratch);
 
 } // namespace raywise

@@ -31,6 +31,13 @@ SceneFrame frame_of_bounds(const Box& bounds) {
     return {SceneFrame::choose_center(bounds.center(), size), size, bounds};
 }
 
+// A scan takes rays in float64: what widening them costs is nothing beside it.
+RayPacket widened(const RayPacketF& rays, Scratch& scratch) {
+    auto* const wide = scratch.take<Ray>(rays.count);
+    for (std::size_t i = 0; i < rays.count; ++i) wide[i] = raywise::widened(rays.rays[i]);
+    return {wide, rays.queries, rays.count};
+}
+
 } // namespace
 
 LinearScan::LinearScan(const BuildInput& input) : primitives_(input.primitives) {
@@ -93,6 +100,14 @@ void LinearScan::any_many(const RayPacket& rays, bool* found, Scratch& scratch) 
     const Collectors<AnyCollector> collectors(rays, scratch);
     scan_any(scanned(), rays.rays, rays.count, collectors.data());
     for (std::size_t i = 0; i < rays.count; ++i) found[i] = collectors[i].found();
+}
+
+void LinearScan::closest_many_f32(const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) const {
+    closest_many(widened(rays, scratch), hits, scratch);
+}
+
+void LinearScan::any_many_f32(const RayPacketF& rays, bool* found, Scratch& scratch) const {
+    any_many(widened(rays, scratch), found, scratch);
 }
 
 } // namespace raywise

@@ -23,6 +23,8 @@ public:
     std::size_t rays_worth_thread() const override;
     void closest_many(const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) const override;
     void any_many(const RayPacket& rays, bool* found, Scratch& scratch) const override;
+    void closest_many_f32(const RayPacketF& rays, PrimitiveHit* hits, Scratch& scratch) const override;
+    void any_many_f32(const RayPacketF& rays, bool* found, Scratch& scratch) const override;
 
     std::size_t bytes() const override { return sizeof *this + blocks_.bytes(); }
     bool is_gathered() const { return !blocks_.empty(); }
