@@ -164,7 +164,7 @@ TEST(UniformGrid, AnswersAsTheLinearScanWithAsManyCellsAsThereCanBe) {
 // A ray from afar is moved next to the scene and rounded there: by more than the slack of the lists, were the cells as narrow as wanted.
 TEST(UniformGrid, MakesNoCellNarrowerThanFarRaysAreRounded) {
     for (const double far : {1e9, 1e12, 1e15}) {
-        World world(moved(random_soup(200, 0.02, 42), 8.0, Vec3(far, 0.0, -far)));
+        World world(moved(random_soup(200, 0.02, 42), 0x1p-30 * far, Vec3(far, 0.0, -far)));
         GridOptions options;
         options.resolution = {40, 200, 40};
         const UniformGrid grid(world.input(), options);
