@@ -1,9 +1,13 @@
 // How fine a grid is made, and whether its cells have the corners of their triangles, by the rays that are expected.
 //
-// Random, camera and diffuse rays one by one, one thread: a cell per primitive instead of a half takes 2 to 4 ns per triangle more to
-// build and 50 to 190 ns a ray less; gathered corners take 25 to 35 ns per triangle more on meshes, and 200 to 900 ns a ray less (bunny,
-// dragon, terrain of 2.1 million triangles). More cells than one per primitive gain nothing once corners are gathered. AMD EPYC
-// with AVX-512, 2026-12-01; docs/decisions/0023-grids.md.
+// ns per triangle to build and ns a ray (random, one by one, one thread, other work beside it; AMD EPYC with AVX-512, 2026-12-01):
+//                                      bunny       igea        dragon      terrain of 2.1 M    soup of 1 M
+//     lists, 1/2 cell per triangle     10   600    13   1380   16   1490   16   2500           18    6700
+//     lists, 1 cell                    15   560    15   1150   18   1340   19   1950           20    7100
+//     corners, 1/4 cell                26   440    25   -      30   660    29   -              109   1830
+//     corners, 1/2 cell                30   400    28   600    33   590    33   800            171   2100
+//     corners, 1 cell                  36   420    32   570    37   560    43   770            216   2470
+// So corners pay from a ray per 10 to 60 triangles on. docs/decisions/0023-grids.md.
 #pragma once
 
 #include "accel/accel.h"
@@ -14,18 +18,13 @@
 namespace raywise {
 
 // Rays per primitive.
-inline constexpr double rays_for_more_cells = 1.0 / 32.0;
-inline constexpr double rays_for_gathering = 1.0 / 8.0;
+inline constexpr double rays_for_gathering = 1.0 / 32.0;
 // Cells per primitive.
-inline constexpr double density_for_few_rays = 0.5;
-inline constexpr double density_for_many_rays = 1.0;
+inline constexpr double density_of_lists = 0.5;
+inline constexpr double density_of_blocks = 0.25;
 
-// Whether more rays are expected than so many per primitive.
-inline bool expects_rays(const BuildInput& input, double per_primitive) {
-    if (input.few_rays) return false;
-    const auto primitives = static_cast<double>(input.primitives.hittable_count());
-    return !input.rays || static_cast<double>(*input.rays) > per_primitive * primitives;
-}
+// Whether cells have the corners of their triangles beside each other: where so many rays are expected, and memory allows.
+bool gathering_pays(const BuildInput& input);
 
 // References beyond this coarsen the grid: large primitives that overlap each other, for which smaller cells gain little.
 inline std::uint64_t max_grid_references(std::uint64_t primitives) { return 24 * primitives + (1u << 16); }

@@ -60,7 +60,7 @@ CellLattice build_limited_lists(const BuildInput& input, const GridOptions& opti
                                 GridLists& lists) {
     const Box& bounds = input.primitives.bounds();
     const std::uint64_t hittable = input.primitives.hittable_count();
-    double cells = options.density.value_or(density_for_many_rays) * static_cast<double>(hittable);
+    double cells = options.density.value_or(density_of_lists) * static_cast<double>(hittable);
     std::array<std::uint32_t, 3> resolution = grid_resolution(bounds.size(), cells, 1.0);
     if (options.resolution) {
         resolution = possible_resolution(bounds.size(), *options.resolution);

@@ -279,7 +279,7 @@ TwoLevelGrid::TwoLevelGrid(const BuildInput& input, const TwoLevelOptions& wante
         options.most_in_a_cell *= options.most_in_a_cell < (1u << 28) ? 4 : 1;
     }
     const std::uint64_t references = levels_.own.references.size() + levels_.lists.references.size();
-    if (!expects_rays(input, rays_for_gathering) || !fits_blocks(input, levels_.bytes(), references)) return;
+    if (!gathering_pays(input) || !fits_blocks(input, levels_.bytes(), references)) return;
     write_cell_blocks(input.primitives, input.parallel, {input.progress, 0.6, 0.7}, levels_.own);
     write_cell_blocks(input.primitives, input.parallel, {input.progress, 0.7, 1.0}, levels_.lists);
 }

@@ -27,7 +27,7 @@ namespace raywise {
 struct TwoLevelOptions {
     double coarse_density = 0.25;        // cells per primitive
     double density = 1.0;                // of the cells' own grids, per reference
-    std::uint32_t most_in_a_cell = 16;   // more references have a grid of their own
+    std::uint32_t most_in_a_cell = 32;   // more references have a grid of their own
     std::uint32_t most_large_apart = 64; // more primitives that are large against the cell's others are no exception
 };
 

@@ -11,11 +11,9 @@ UniformGrid::UniformGrid(const BuildInput& input, const GridOptions& options)
     : primitives_(input.primitives), mailboxes_(options.mailboxes) {
     if (input.primitives.hittable_count() == 0) return;
     GridOptions chosen = options;
-    if (!chosen.density) {
-        chosen.density = expects_rays(input, rays_for_more_cells) ? density_for_many_rays : density_for_few_rays;
-    }
+    const bool gather = options.gather.value_or(gathering_pays(input));
+    if (!chosen.density) chosen.density = gather ? density_of_blocks : density_of_lists;
     lattice_ = build_limited_lists(input, chosen, {input.progress, 0.0, 0.6}, lists_);
-    const bool gather = options.gather.value_or(expects_rays(input, rays_for_gathering));
     if (gather && fits_blocks(input, lists_.bytes(), lists_.references.size()))
         write_cell_blocks(input.primitives, input.parallel, {input.progress, 0.6, 1.0}, lists_);
 }

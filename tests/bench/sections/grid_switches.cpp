@@ -13,23 +13,33 @@ SwitchRow row(const char* name, const GridOptions& options) {
 } // namespace
 
 std::vector<SwitchRow> grid_switches() {
-    GridOptions no_mailboxes;
-    no_mailboxes.mailboxes = false;
-    GridOptions boxes_alone;
-    boxes_alone.overlap_test = OverlapTest::none;
-    GridOptions all_tested;
-    all_tested.overlap_test = OverlapTest::all;
-    std::vector<SwitchRow> rows = {row("as it is", {}), row("without mailboxes", no_mailboxes),
-                                   row("no overlap test", boxes_alone), row("overlap test of all", all_tested)};
+    GridOptions lists; // those of the lectures; the library gathers corners for as many rays
+    lists.gather = false;
+    lists.density = 1.0;
+    std::vector<SwitchRow> rows = {row("as it is", {}), row("lists, density 1", lists)};
+    GridOptions changed = lists;
+    changed.mailboxes = false;
+    rows.push_back(row("lists, without mailboxes", changed));
+    changed = lists;
+    changed.overlap_test = OverlapTest::none;
+    rows.push_back(row("lists, no overlap test", changed));
+    changed.overlap_test = OverlapTest::all;
+    rows.push_back(row("lists, all tested", changed));
     struct Density {
-        const char* name;
+        const char* lists;
+        const char* corners;
         double cells_per_primitive;
     };
-    for (const Density& density :
-         {Density{"density 0.25", 0.25}, {"density 1", 1.0}, {"density 4", 4.0}, {"density 10", 10.0}}) {
-        GridOptions options;
-        options.density = density.cells_per_primitive;
-        rows.push_back(row(density.name, options));
+    constexpr Density densities[] = {{"lists, density 0.25", "corners, density 0.25", 0.25},
+                                     {"lists, density 0.5", "corners, density 0.5", 0.5},
+                                     {"lists, density 4", "corners, density 4", 4.0},
+                                     {"lists, density 10", "corners, density 10", 10.0}};
+    for (const Density& density : densities) {
+        changed = lists;
+        changed.density = density.cells_per_primitive;
+        rows.push_back(row(density.lists, changed));
+        changed.gather = true;
+        rows.push_back(row(density.corners, changed));
     }
     return rows;
 }

@@ -1804,7 +1804,7 @@ Returns: RW_OK.
     /**
 ```text
 Does: names a structure: "linear_scan", "uniform_grid", "kd_tree", "bvh", "projected_bvh", "bvh_quality",
-"bvh_morton". Names stay, and so does their order; more may follow.
+"bvh_morton", "two_level_grid". Names stay, and so does their order; more may follow.
 index: below the count. name: receives a constant text.
 Returns: RW_OK.
 ```
