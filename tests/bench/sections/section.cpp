@@ -13,6 +13,7 @@ const std::vector<Section>& sections() {
         {"totals", "from cold to R answers", measure_totals, totals_table, false},
         {"frames", "moved, renewed and asked", measure_frames, frames_table, false},
         {"linear_scan", "the linear scan", measure_linear_scan, linear_scan_table, false},
+        {"structures", "our structures beside each other", measure_structures, structures_table, false},
         {"switches", "the switches of the lectures", measure_switches, switches_table, false},
     };
     return all;

@@ -39,6 +39,8 @@ void measure_hit_counts(SceneUnderTest& scene);
 std::string hit_counts_table(const Session& session);
 void measure_overhead(SceneUnderTest& scene);
 std::string overhead_table(const Session& session);
+void measure_structures(SceneUnderTest& scene);
+std::string structures_table(const Session& session);
 void measure_switches(SceneUnderTest& scene);
 std::string switches_table(const Session& session);
 
