@@ -22,6 +22,8 @@ template <class T>
 inline constexpr std::size_t previous_size = sizeof(T);
 template <>
 inline constexpr std::size_t previous_size<rw_commit_options> = offsetof(rw_commit_options, refit);
+template <>
+inline constexpr std::size_t previous_size<rw_query_options> = offsetof(rw_query_options, workspace);
 
 // The struct_size of a struct that begins with one. A larger one, of a newer program, is fine as long as what this library does
 // not know is zero.

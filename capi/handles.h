@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "batch/batch_workspace.h"
 #include "io/mesh_file.h"
 #include "model/profile.h"
 #include "raywise/raywise.h"
@@ -53,6 +54,9 @@ struct rw_profile : raywise::capi::Handle<const raywise::Profile> {
 };
 struct rw_mesh : raywise::capi::Handle<const raywise::LoadedMesh> {
     using Handle::Handle;
+};
+struct rw_batch_workspace {
+    raywise::BatchWorkspace value;
 };
 struct rw_scene : raywise::capi::Handle<raywise::Scene> {
     using Handle::Handle;

@@ -9,6 +9,7 @@ BatchOptions read_batch_options(const rw_query_options& options) {
     BatchOptions result;
     result.parallel = read_parallel(options.threads, options.parallel_for, options.parallel_user);
     result.watch = read_watch(options);
+    if (options.workspace != nullptr) result.workspace = &options.workspace->value;
     return result;
 }
 

@@ -121,16 +121,14 @@ void Parallel::for_each(std::uint64_t count, const Task& task) const {
     SharedLoop(count, task).run(threads_);
 }
 
-void Parallel::for_blocks(std::uint64_t count, std::uint64_t grain,
-                          const std::function<void(std::uint64_t, std::uint64_t)>& body) const {
-    if (count == 0) return;
+Parallel::Blocks Parallel::blocks_of(std::uint64_t count, std::uint64_t grain) const {
+    if (count == 0) return {0, 0};
     grain = std::max<std::uint64_t>(grain, 1);
     // Several blocks per thread balance uneven work; never smaller than the grain.
     const std::uint64_t wanted = std::max<std::uint64_t>(1, std::uint64_t{threads_} * 8);
-    const std::uint64_t block = std::max(grain, (count + wanted - 1) / wanted);
+    const std::uint64_t size = std::max(grain, (count + wanted - 1) / wanted);
     // What is left over is a block of its own only where it is as long as the grain.
-    const std::uint64_t blocks = std::max<std::uint64_t>(1, count / block + (count % block >= grain ? 1 : 0));
-    for_each(blocks, [&](std::uint64_t i) { body(i * block, i + 1 == blocks ? count : (i + 1) * block); });
+    return {std::max<std::uint64_t>(1, count / size + (count % size >= grain ? 1 : 0)), size};
 }
 
 } // namespace raywise

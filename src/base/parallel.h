@@ -3,12 +3,25 @@
 
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 
 namespace raywise {
 
 class Parallel {
 public:
-    using Task = std::function<void(std::uint64_t index)>;
+    // What is called for each index: somebody's function, which outlives this. No copy is made and no memory taken.
+    class Task {
+    public:
+        template <class Body, class = std::enable_if_t<!std::is_same_v<Body, Task>>>
+        Task(const Body& body)
+            : body_(&body),
+              call_([](const void* data, std::uint64_t index) { (*static_cast<const Body*>(data))(index); }) {}
+        void operator()(std::uint64_t index) const { call_(body_, index); }
+
+    private:
+        const void* body_;
+        void (*call_)(const void* body, std::uint64_t index);
+    };
     // A parallel-for of the host: has to call its second argument once for each index below the first.
     using Host = std::function<void(std::uint64_t count, const Task& task)>;
 
@@ -20,8 +33,14 @@ public:
     void for_each(std::uint64_t count, const Task& task) const;
 
     // Splits [0, count) into blocks of at least `grain`, or one of all where there are fewer, and calls body(begin, end) for each.
-    void for_blocks(std::uint64_t count, std::uint64_t grain,
-                    const std::function<void(std::uint64_t begin, std::uint64_t end)>& body) const;
+    template <class Body>
+    void for_blocks(std::uint64_t count, std::uint64_t grain, const Body& body) const {
+        const Blocks blocks = blocks_of(count, grain);
+        const auto task = [&](std::uint64_t i) {
+            body(i * blocks.size, i + 1 == blocks.count ? count : (i + 1) * blocks.size);
+        };
+        for_each(blocks.count, task);
+    }
 
     // The host's loop where there is one, else the caller's thread alone: for work too small for the library's own threads.
     Parallel without_own_threads() const { return host_ ? *this : Parallel(1); }
@@ -33,6 +52,12 @@ public:
     static unsigned usable_threads();
 
 private:
+    struct Blocks {
+        std::uint64_t count;
+        std::uint64_t size; // of all but the last
+    };
+    Blocks blocks_of(std::uint64_t count, std::uint64_t grain) const;
+
     unsigned threads_;
     Host host_;
 };

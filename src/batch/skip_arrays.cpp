@@ -51,9 +51,8 @@ void SkipArrays::check(std::uint64_t rays, const Primitives& primitives) const {
 void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primitives& primitives) {
     numbers_.clear();
     queries_.clear();
+    ends_.clear();
     if (!arrays.wanted()) return;
-    std::vector<std::size_t> ends;
-    ends.reserve(rays.count());
     for (std::size_t i = 0; i < rays.count(); ++i) {
         const SkipArrays::Range entries = arrays.range(rays[i]);
         const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
@@ -62,11 +61,11 @@ void SkipBlock::read(const SkipArrays& arrays, const Elements& rays, const Primi
             if (!e.stands_for_nothing()) numbers_.push_back(e.number(primitives, "rays.skip_primitive", k));
         }
         std::sort(numbers_.begin() + begin, numbers_.end());
-        ends.push_back(numbers_.size());
+        ends_.push_back(numbers_.size());
     }
     queries_.reserve(rays.count());
     const std::uint32_t* begin = numbers_.data();
-    for (const std::size_t end : ends) {
+    for (const std::size_t end : ends_) {
         queries_.push_back({{begin, numbers_.data() + end}});
         begin = numbers_.data() + end;
     }

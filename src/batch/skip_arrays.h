@@ -56,6 +56,7 @@ public:
 
 private:
     std::vector<std::uint32_t> numbers_;
+    std::vector<std::size_t> ends_; // of each ray's numbers
     std::vector<Query> queries_;
 };
 

@@ -46,7 +46,8 @@ RW_PROFILE_RANGE = 28
 RW_ERROR_RESERVED = 29
 RW_ERROR_OVERLAP = 30
 RW_ERROR_SHARED_MEMORY = 31
-RW_STATUS_COUNT = 32
+RW_ERROR_IN_USE = 32
+RW_STATUS_COUNT = 33
 RW_TYPE_DEFAULT = 0
 RW_FLOAT32 = 1
 RW_FLOAT64 = 2
@@ -232,6 +233,7 @@ class rw_hits(ctypes.Structure):
 
 
 rw_progress = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
+rw_batch_workspace = ctypes.c_void_p
 
 
 class rw_query_options(ctypes.Structure):
@@ -244,6 +246,7 @@ class rw_query_options(ctypes.Structure):
         ("progress", rw_progress),
         ("progress_user", ctypes.c_void_p),
         ("cancel", ctypes.c_void_p),
+        ("workspace", ctypes.c_void_p),
     ]
 
 
@@ -375,6 +378,8 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "rw_mesh_release": (ctypes.c_int32, [ctypes.c_void_p]),
     "rw_mesh_triangles": (ctypes.c_int32, [ctypes.c_void_p, ctypes.POINTER(rw_triangles)]),
     "rw_mesh_faces": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]),
+    "rw_batch_workspace_create": (ctypes.c_int32, [ctypes.c_void_p]),
+    "rw_batch_workspace_release": (ctypes.c_int32, [ctypes.c_void_p]),
     "rw_structure_count": (ctypes.c_int32, [ctypes.c_void_p]),
     "rw_structure_name": (ctypes.c_int32, [ctypes.c_uint32, ctypes.c_void_p]),
     "rw_scene_create": (ctypes.c_int32, [ctypes.c_void_p, ctypes.c_void_p]),
@@ -682,7 +687,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
         },
     ),
     "rw_query_options": (
-        56,
+        64,
         8,
         {
             "struct_size": 0,
@@ -693,6 +698,7 @@ LAYOUTS: Dict[str, Tuple[int, int, Dict[str, int]]] = {
             "progress": 32,
             "progress_user": 40,
             "cancel": 48,
+            "workspace": 56,
         },
     ),
     "rw_expected_rays": (

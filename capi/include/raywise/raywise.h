@@ -23,6 +23,7 @@
  * - Texts and files are the same in every locale: a decimal point is a point.
  * - Handles (rw_scene, rw_profile, rw_mesh) are counted: *_create, *_load, rw_scene_view and rw_scene_refit hand out
  *   one reference, *_retain adds one, *_release gives one back and the last one frees; releasing NULL does nothing.
+ *   A workspace (rw_batch_workspace) has one owner: created once, released once.
  * - Threads. Functions may run at the same time in any number of threads. Those that take a handle which is not const
  *   (an rw_scene that is being filled and committed) need that handle alone.
  * - Threads of the library. The first commit, refit, view or batch that is worth it starts them: of 1,024 triangles,
@@ -33,7 +34,7 @@
  * - Memory. What a call took is given back when it returns, whatever the number of calls before. Kept for the next one
  *   is the place in which threads meet: for each value of `threads` in use as many as there were calls at once, 7 kB
  *   each and 2 kB for each thread above two. Scenes that are refitted frame after frame keep more, and what more a
- *   program wants kept it says: see rw_scene_refit and rw_memory_keep.
+ *   program wants kept it says: see rw_scene_refit, rw_memory_keep and rw_batch_workspace.
  * - Fork. A child may go on with all that it inherits, except from within a callback. Where the parent had threads of
  *   the library, the child has none and its calls work in the calling thread alone, or in a parallel_for; otherwise it
  *   starts its own.
@@ -427,6 +428,19 @@ typedef struct rw_hits {
  * parallel_for from any of the host's threads at work. */
 typedef int32_t (*rw_progress)(void *user, double fraction, const char *stage);
 
+/* The memory that batches take while they run, kept from one to the next: a batch like the one before then takes none
+ * from the system, but for what oneTBB or a parallel_for may take. For hosts that ask in a loop; of use to any scene. It
+ * grows to what the largest of its batches took: 48 bytes a ray, 80 where not all of the rays' numbers are float32, for at
+ * most 2^20 rays, and 1 MiB for each thread. */
+typedef struct rw_batch_workspace rw_batch_workspace;
+
+/* Does: makes a workspace, which is empty until it is used. workspace: receives it; the caller must release it.
+ * Returns: RW_OK. */
+RW_API int32_t rw_batch_workspace_create(rw_batch_workspace **workspace);
+
+/* Does: frees a workspace. workspace: may be NULL; no batch may be using it. Returns: RW_OK. */
+RW_API int32_t rw_batch_workspace_release(rw_batch_workspace *workspace);
+
 /* How to run a batch. Whether to stop is looked at by every thread at work, every few milliseconds, and more seldom
  * only where a single ray takes longer. The batch then returns RW_ERROR_CANCELLED: outputs that were written are
  * right, others are as they were, and offsets, needed and invalid_rays are not written. */
@@ -442,6 +456,9 @@ typedef struct rw_query_options {
      * store (_Atomic int32_t, std::atomic<int32_t>), and a signal handler by a plain one. Aligned to 4 bytes; only
      * read, and no byte of it may belong to an output. */
     const volatile int32_t *cancel;
+    /* NULL: memory of the batch's own. It serves one batch at a time: RW_ERROR_IN_USE, and nothing is written, while
+     * another one is at it, be it of another scene or thread or the one whose callback asks. */
+    rw_batch_workspace *workspace;
 } rw_query_options;
 
 /* ------------------------------------------------------------------------------------------------
@@ -713,11 +730,12 @@ RW_API int32_t rw_scene_normal_f32(const rw_scene *scene, const rw_hit_f32 *hit,
  * neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is
  * not checked.
  * options: struct_size set; NULL: the defaults.
- * Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
- * 80 MiB in all, while the call lasts.
+ * Rays may come in any order: many are traced in one that suits the structure, which takes 48 bytes a ray, 80 where not
+ * all of their numbers are float32, of at most 2^20 rays, while the call lasts or for as long as the workspace does.
  * Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then
  * partly written), RW_ERROR_CANCELLED (see rw_query_options), RW_ERROR_INDEX_OUT_OF_RANGE (a skip list),
- * RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP, RW_ERROR_SHARED_MEMORY. */
+ * RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP, RW_ERROR_SHARED_MEMORY,
+ * RW_ERROR_IN_USE. */
 RW_API int32_t rw_scene_intersect_batch(const rw_scene *scene, const rw_rays *rays, const rw_hits *hits,
                                         const rw_query_options *options);
 

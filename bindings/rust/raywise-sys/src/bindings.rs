@@ -36,7 +36,8 @@ pub const RW_PROFILE_RANGE: i32 = 28;
 pub const RW_ERROR_RESERVED: i32 = 29;
 pub const RW_ERROR_OVERLAP: i32 = 30;
 pub const RW_ERROR_SHARED_MEMORY: i32 = 31;
-pub const RW_STATUS_COUNT: i32 = 32;
+pub const RW_ERROR_IN_USE: i32 = 32;
+pub const RW_STATUS_COUNT: i32 = 33;
 pub const RW_TYPE_DEFAULT: i32 = 0;
 pub const RW_FLOAT32: i32 = 1;
 pub const RW_FLOAT64: i32 = 2;
@@ -879,6 +880,19 @@ pub type rw_progress = ::std::option::Option<
 >;
 /**
 ```text
+The memory that batches take while they run, kept from one to the next: a batch like the one before then takes none
+from the system, but for what oneTBB or a parallel_for may take. For hosts that ask in a loop; of use to any scene. It
+grows to what the largest of its batches took: 48 bytes a ray, 80 where not all of the rays' numbers are float32, for at
+most 2^20 rays, and 1 MiB for each thread.
+```
+*/
+#[repr(C)]
+#[derive(Debug)]
+pub struct rw_batch_workspace {
+    _unused: [u8; 0],
+}
+/**
+```text
 How to run a batch. Whether to stop is looked at by every thread at work, every few milliseconds, and more seldom
 only where a single ray takes longer. The batch then returns RW_ERROR_CANCELLED: outputs that were written are
 right, others are as they were, and offsets, needed and invalid_rays are not written.
@@ -908,6 +922,13 @@ read, and no byte of it may belong to an output.
 ```
 */
     pub cancel: *const i32,
+    /**
+```text
+NULL: memory of the batch's own. It serves one batch at a time: RW_ERROR_IN_USE, and nothing is written, while
+another one is at it, be it of another scene or thread or the one whose callback asks.
+```
+*/
+    pub workspace: *mut rw_batch_workspace,
 }
 #[test]
 fn bindgen_test_layout_rw_query_options() {
@@ -915,7 +936,7 @@ fn bindgen_test_layout_rw_query_options() {
     let ptr = UNINIT.as_ptr();
     assert_eq!(
         ::std::mem::size_of::<rw_query_options>(),
-        56usize,
+        64usize,
         "Size of rw_query_options",
     );
     assert_eq!(
@@ -962,6 +983,11 @@ fn bindgen_test_layout_rw_query_options() {
         unsafe { ::std::ptr::addr_of!((*ptr).cancel) as usize - ptr as usize },
         48usize,
         "Offset of field: rw_query_options::cancel",
+    );
+    assert_eq!(
+        unsafe { ::std::ptr::addr_of!((*ptr).workspace) as usize - ptr as usize },
+        56usize,
+        "Offset of field: rw_query_options::workspace",
     );
 }
 impl Default for rw_query_options {
@@ -1796,6 +1822,15 @@ Returns: RW_OK.
     ) -> i32;
     /**
 ```text
+Does: makes a workspace, which is empty until it is used. workspace: receives it; the caller must release it.
+Returns: RW_OK.
+```
+*/
+    pub fn rw_batch_workspace_create(workspace: *mut *mut rw_batch_workspace) -> i32;
+    /// Does: frees a workspace. workspace: may be NULL; no batch may be using it. Returns: RW_OK.
+    pub fn rw_batch_workspace_release(workspace: *mut rw_batch_workspace) -> i32;
+    /**
+```text
 Does: counts the structures the library can choose from.
 Returns: RW_OK.
 ```
@@ -2094,11 +2129,12 @@ rays: struct_size set. hits: struct_size set; the outputs it names are written t
 neither with each other and invalid_rays nor with the rays. That they leave alone meshes that are read in place is
 not checked.
 options: struct_size set; NULL: the defaults.
-Rays may come in any order: many are traced in one that suits the structure, which takes up to 80 bytes a ray, and
-80 MiB in all, while the call lasts.
+Rays may come in any order: many are traced in one that suits the structure, which takes 48 bytes a ray, 80 where not
+all of their numbers are float32, of at most 2^20 rays, while the call lasts or for as long as the workspace does.
 Returns: RW_OK, RW_ERROR_NOT_COMMITTED, RW_ERROR_HOST_PARALLEL and RW_ERROR_OUT_OF_MEMORY (the outputs are then
 partly written), RW_ERROR_CANCELLED (see rw_query_options), RW_ERROR_INDEX_OUT_OF_RANGE (a skip list),
-RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP, RW_ERROR_SHARED_MEMORY.
+RW_ERROR_TOO_MANY (above RW_RAYS_LIMIT), RW_ERROR_RESERVED, RW_ERROR_OVERLAP, RW_ERROR_SHARED_MEMORY,
+RW_ERROR_IN_USE.
 ```
 */
     pub fn rw_scene_intersect_batch(

@@ -78,6 +78,7 @@ mod structures;
 mod text;
 mod triangles;
 mod view;
+mod workspace;
 
 pub use arrays::{Ids, Indices, Scalars, Vectors};
 pub use builder::{CommitError, SceneBuilder};
@@ -105,3 +106,4 @@ pub use status::Status;
 pub use structures::structures;
 pub use triangles::{SharedTriangles, Triangles};
 pub use view::ViewOptions;
+pub use workspace::Workspace;

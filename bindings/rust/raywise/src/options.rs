@@ -12,6 +12,7 @@ use raywise_sys as sys;
 use crate::library::size_of_struct;
 use crate::parallel::{Host, ParallelFor};
 use crate::text;
+use crate::workspace::Workspace;
 
 /// How to run a batch (`rw_query_options`).
 #[derive(Clone, Copy, Default)]
@@ -20,6 +21,7 @@ pub struct QueryOptions<'a> {
     parallel_for: Option<ParallelFor<'a>>,
     progress: Option<QueryProgress<'a>>,
     cancel: Option<&'a AtomicI32>,
+    workspace: Option<&'a Workspace>,
 }
 
 type QueryProgress<'a> = &'a (dyn Fn(f64, &str) -> ControlFlow<()> + Sync);
@@ -64,6 +66,13 @@ impl<'a> QueryOptions<'a> {
         self
     }
 
+    /// The memory that batches take, kept from one to the next; see [`Workspace`].
+    #[must_use]
+    pub fn workspace(mut self, workspace: &'a Workspace) -> Self {
+        self.workspace = Some(workspace);
+        self
+    }
+
     /// Makes a C call with these options, and goes on with a panic of the host's code afterwards.
     /// `invalid_rays` receives the number of rays with a NaN.
     pub(crate) fn with_raw<R>(&self, invalid_rays: &mut u64, call: impl FnOnce(&sys::rw_query_options) -> R) -> R {
@@ -80,6 +89,7 @@ impl<'a> QueryOptions<'a> {
             progress,
             progress_user,
             cancel: self.cancel.map_or(std::ptr::null(), |flag| flag.as_ptr().cast_const()),
+            workspace: self.workspace.map_or(std::ptr::null_mut(), Workspace::as_ptr),
         });
         Listener::resume_panic(listener);
         host.resume_panic();
@@ -94,6 +104,7 @@ impl fmt::Debug for QueryOptions<'_> {
             .field("parallel_for", &self.parallel_for.map(|_| ".."))
             .field("progress", &self.progress.map(|_| ".."))
             .field("cancel", &self.cancel)
+            .field("workspace", &self.workspace)
             .finish()
     }
 }
