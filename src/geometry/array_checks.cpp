@@ -67,7 +67,7 @@ struct LaneBounds {
     HWY_INLINE void add(Vector numbers) {
         lower = hn::Min(lower, numbers);
         upper = hn::Max(upper, numbers);
-        zeros = hn::MulAdd(numbers, hn::Zero(Lanes()), zeros); // a NaN from NaN and infinities, and it stays one
+        zeros = hn::Add(hn::Mul(numbers, hn::Zero(Lanes())), zeros); // a NaN from NaN and infinities, and it stays one
     }
 
     // first: the axis of the first lane, of which the others follow in turn. Returns whether all numbers were finite.

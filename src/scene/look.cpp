@@ -102,7 +102,8 @@ SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
     if (chosen.empty()) return typical_features(primitives.hittable_count());
 
     const double triangles = static_cast<double>(primitives.hittable_count());
-    const Cells cells(primitives.bounds(), triangles);
+    // Not the bounds: those of the triangles with area alone may not be known yet.
+    const Cells cells(primitives.outer_bounds(), triangles);
     const double area = half_area(cells.size);
     SceneFeatures features;
     features.triangles = triangles;

@@ -5,7 +5,7 @@ int main(void) {
     int32_t i, j;
     uint32_t major = 99, minor = 99, patch = 99;
     use_all_helpers();
-    CHECK(RW_STATUS_COUNT == RW_ERROR_SHARED_MEMORY + 1);
+    CHECK(RW_STATUS_COUNT == RW_ERROR_IN_USE + 1);
     for (i = 0; i < RW_STATUS_COUNT; ++i) {
         const char *text = rw_status_text(i);
         CHECK(text != NULL && strlen(text) >= 5);

@@ -175,39 +175,36 @@ TEST(Refit, ChoosesAnewWhenTheSceneHasGrownOrShrunkMoreThanTwofold) {
 }
 
 TEST(Refit, KeepsTheMemoryLimit) {
-    // Triangles that shrink to little around their places take fewer cells each, and the other way round.
+    // Of the one about half as many triangles can be hit, and a tree of them has no place for the others.
     const Soup large = make_soup(2000);
-    const Soup small = moved(large, [&](float x, std::size_t i) {
-        const float first = large.vertices[i / 9 * 9 + i % 3];
-        return first + 0.01f * (x - first);
-    });
-    const std::uint64_t of_small = forced(small, Structure::kd_tree)->plan().bytes;
-    const std::uint64_t of_large = forced(large, Structure::kd_tree)->plan().bytes;
+    const Soup small = collapsed(large, 900);
+    const std::uint64_t of_small = forced(small, Structure::bvh)->plan().bytes;
+    const std::uint64_t of_large = forced(large, Structure::bvh)->plan().bytes;
     ASSERT_GT(of_large, of_small + 1000) << "the limit below has to be between them";
     const std::uint64_t limit = of_small + 500;
 
-    const auto must = forced(small, Structure::kd_tree, limit);
+    const auto must = forced(small, Structure::bvh, limit);
     try {
         refit(*must, large);
         FAIL() << "the tree is too large";
     } catch (const Error& error) {
         EXPECT_EQ(error.status(), Status::ERROR_MEMORY_LIMIT);
-        EXPECT_NE(std::string(error.what()).find("kd_tree"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("bvh"), std::string::npos) << error.what();
     }
     const auto profile = make_profile([](MachineConstants& m) {
         for (const Structure structure : all_structures()) m.structures[structure].build_ns.fixed = 1e5;
-        m.structures[Structure::kd_tree].build_ns.fixed = 1e3;
+        m.structures[Structure::bvh].build_ns.fixed = 1e3;
     });
     const auto may = make_scene(small, profile, [&](Scene& s) {
         s.set_expected({100, RayKind::random}, {});
         s.set_memory_limit(limit);
     });
-    ASSERT_EQ(may->plan().chosen, Structure::kd_tree);
+    ASSERT_EQ(may->plan().chosen, Structure::bvh);
     const auto other = refit(*may, large);
-    EXPECT_NE(other->plan().chosen, Structure::kd_tree);
+    EXPECT_NE(other->plan().chosen, Structure::bvh);
     EXPECT_LE(other->plan().bytes, limit);
     EXPECT_NE(std::string(other->plan().refit->obstacle).find("memory limit"), std::string::npos);
-    EXPECT_TRUE(other->plan().candidate(Structure::kd_tree).over_limit);
+    EXPECT_TRUE(other->plan().candidate(Structure::bvh).over_limit);
     expect_same_answers(*other, large);
 }
 
