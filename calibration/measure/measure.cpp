@@ -166,8 +166,7 @@ private:
         const std::vector<Timing> timings = time_in_turns(batches, plan_.ray_timing);
         for (const Structure structure : all_structures()) {
             const std::size_t i = static_cast<std::size_t>(structure);
-            result_.measurements.rays.push_back(
-                {structure, kind, features(), timings[i].ns / counts[i]});
+            result_.measurements.rays.push_back({structure, kind, features(), timings[i].ns / counts[i]});
             note_spread(timings[i]);
         }
     }

@@ -46,7 +46,7 @@ Vec3 unit_normal(const Corners& corners);
 // Which primitives have area, and how far those reach.
 struct Areas {
     PageVector<bool> unhittable; // empty when all can be hit
-    Reach reach;                  // of those that can be
+    Reach reach;                 // of those that can be
     std::uint64_t degenerate_count = 0;
 };
 

@@ -48,7 +48,8 @@ constexpr UnitsOfStructure table[] = {
     {Structure::bvh_quality, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false},
     // Radix sort: as many passes whatever the number.
     {Structure::bvh_morton, CostUnits(n), tree_ray, CostUnits(n), false, false},
-    {Structure::two_level_grid, CostUnits(n, references), CostUnits(log_n, cells, filled, boxes), CostUnits(n, references), false, true},
+    {Structure::two_level_grid, CostUnits(n, references), CostUnits(log_n, cells, filled, boxes),
+     CostUnits(n, references), false, true},
 };
 
 constexpr bool is_complete() {

@@ -76,9 +76,7 @@ void ask(const rw_scene* scene) {
 }
 
 // Its builder takes other memory.
-bool takes_from_malloc(const char* structure) {
-    return structure != nullptr && std::string(structure) == "kd_tree";
-}
+bool takes_from_malloc(const char* structure) { return structure != nullptr && std::string(structure) == "kd_tree"; }
 
 // structure: NULL: the library chooses.
 void make_frames(const char* structure, int32_t refit) {

@@ -140,12 +140,8 @@ int main(void) {
     static const struct {
         const char *structure;
         long stride;
-    } cases[] = {{"uniform_grid", 1},
-                 {"kd_tree", 17},
-                 {"bvh", 1},
-                 {"bvh_quality", 1},
-                 {"bvh_morton", 1},
-                 {"two_level_grid", 1}}; /* a kd-tree takes thousands */
+    } cases[] = {{"uniform_grid", 1}, {"kd_tree", 17},   {"bvh", 1},
+                 {"bvh_quality", 1},  {"bvh_morton", 1}, {"two_level_grid", 1}}; /* a kd-tree takes thousands */
     rw_scene *judge;
     size_t s;
     int i;

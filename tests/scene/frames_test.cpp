@@ -81,7 +81,8 @@ TEST_F(Frames, TakeNothingFromTheSystemInSteadyState) {
             }
             // An array that is longer than any before finds no block that will do.
             const std::uint64_t longer = lengths_vary(structure) ? 2 : 0;
-            EXPECT_LE(fresh_blocks(), settled + longer) << name_of(structure) << ", policy " << static_cast<int>(policy);
+            EXPECT_LE(fresh_blocks(), settled + longer)
+                << name_of(structure) << ", policy " << static_cast<int>(policy);
             EXPECT_GT(page_pool_figures().kept, 0u);
             const std::uint64_t refits = scene->plan().refit->refits;
             EXPECT_EQ(refits > 0,

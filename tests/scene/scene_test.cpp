@@ -255,7 +255,8 @@ TEST(Scene, SettlesAreasForViewsAndRefits) {
 
     const auto other = scene_for(soup, 1, std::nullopt);
     ASSERT_FALSE(are_areas_settled(*other));
-    const auto moved = other->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(1), progress);
+    const auto moved =
+        other->refitted({{soup.arrays(), true, false, ""}}, RefitPolicy::where_it_pays, Parallel(1), progress);
     EXPECT_EQ(moved->plan().chosen, Structure::linear_scan);
     EXPECT_EQ(moved->tracer().primitives().hittable_count(), 675u);
     // As many can be hit as before, so that what was chosen is kept.
