@@ -75,8 +75,10 @@ void ask(const rw_scene* scene) {
     CHECK(hit.primitive != RW_INVALID_ID);
 }
 
-// Its builder takes other memory.
-bool takes_from_malloc(const char* structure) { return structure != nullptr && std::string(structure) == "kd_tree"; }
+// Their builders take other memory as well.
+bool takes_from_malloc(const char* structure) {
+    return structure != nullptr && (std::string(structure) == "two_level_grid" || std::string(structure) == "kd_tree");
+}
 
 // structure: NULL: the library chooses.
 void make_frames(const char* structure, int32_t refit) {

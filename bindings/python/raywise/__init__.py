@@ -20,6 +20,7 @@ from ._errors import (
     CoordinateRange,
     HostParallel,
     IndexOutOfRange,
+    InUse,
     InternalError,
     InvalidArgument,
     MemoryLimit,
@@ -45,7 +46,7 @@ from ._explanation import Candidate, Explanation, GridStatistics, SceneStatistic
 from ._facts import library_path, structures, version
 from ._hits import INVALID_ID, AllHits, Hits
 from ._library import LibraryError
-from ._memory import keep_memory, kept_memory
+from ._memory import Workspace, keep_memory, kept_memory
 from ._mesh import Mesh
 from ._once import intersect_once, occluded_once
 from ._profile import Profile, profile
@@ -76,6 +77,7 @@ __all__ = [
     "GridStatistics",
     "Hits",
     "HostParallel",
+    "InUse",
     "IndexOutOfRange",
     "InternalError",
     "InvalidArgument",
@@ -103,6 +105,7 @@ __all__ = [
     "TooMany",
     "UnknownStructure",
     "View",
+    "Workspace",
     "WrongStructure",
     "__version__",
     "intersect_once",

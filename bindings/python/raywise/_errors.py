@@ -47,6 +47,10 @@ class SharedMemory(InvalidArgument):
     """Two outputs, or an output and the rays, share memory."""
 
 
+class InUse(RaywiseError, RuntimeError):
+    """A workspace serves one batch at a time, and another one is at it; nothing was written."""
+
+
 class OutOfMemory(RaywiseError, MemoryError):
     """An allocation failed; nothing was changed but a batch's outputs."""
 
@@ -167,6 +171,7 @@ CLASSES: Dict[int, Type[RaywiseError]] = {
     c.RW_ERROR_RESERVED: ReservedMember,
     c.RW_ERROR_OVERLAP: OverlappingOutput,
     c.RW_ERROR_SHARED_MEMORY: SharedMemory,
+    c.RW_ERROR_IN_USE: InUse,
 }
 
 

@@ -31,6 +31,7 @@ from ._hits import (
 )
 from ._interrupt import Interrupt
 from ._library import lib
+from ._memory import Workspace
 from ._rays import Rays, as_rays, describe
 from ._skip import SkipLike
 from ._text import library_json, library_text
@@ -86,17 +87,20 @@ class Batch:
     options: c.rw_query_options
     interrupt: Interrupt
     invalid_rays: "ctypes.c_uint64"
+    workspace: Optional[Reference]
 
     def structs(self) -> c.rw_rays:
         return describe(self.rays, self.rows)
 
 
-def batch_of(rays: Rays, threads: Count) -> Batch:
+def batch_of(rays: Rays, threads: Count, workspace: Optional[Workspace]) -> Batch:
     invalid_rays = ctypes.c_uint64()
     options = sized(c.rw_query_options)
     options.threads = unsigned(threads, "threads", 32)
     options.invalid_rays = ctypes.addressof(invalid_rays)
-    return Batch(rays, rays.rows(), options, Interrupt(options), invalid_rays)
+    used = workspace._use() if workspace is not None else None
+    options.workspace = used.address if used is not None else None
+    return Batch(rays, rays.rows(), options, Interrupt(options), invalid_rays, used)
 
 
 def answer_closest(
@@ -106,9 +110,10 @@ def answer_closest(
     out: Optional[Out],
     dtype: Optional[npt.DTypeLike],
     threads: Count,
+    workspace: Optional[Workspace] = None,
 ) -> Hits:
     """Sizes the outputs, has `call` fill them, and hands them out in the rays' shape."""
-    batch = batch_of(rays, threads)
+    batch = batch_of(rays, threads, workspace)
     if out is None:
         outputs = new_outputs(wanted(want), rays.shape, float_type(dtype, rays.dtype))
     else:
@@ -123,9 +128,10 @@ def answer_occluded(
     call: Callable[[c.rw_rays, c.rw_output, c.rw_query_options], int],
     out: Optional[Array],
     threads: Count,
+    workspace: Optional[Workspace] = None,
 ) -> npt.NDArray[Any]:
     """The same for the question whether anything is hit."""
-    batch = batch_of(rays, threads)
+    batch = batch_of(rays, threads, workspace)
     if out is None:
         flags = np.empty(rays.shape, np.bool_)
     else:
@@ -184,6 +190,7 @@ class Queries(Handle):
         out: Optional[Out] = None,
         dtype: Optional[npt.DTypeLike] = None,
         threads: Count = 0,
+        workspace: Optional[Workspace] = None,
     ) -> Hits:
         """The closest hit of each ray.
 
@@ -206,6 +213,7 @@ class Queries(Handle):
         overlap the rays.
         dtype: float32 or float64 for t, uv and normal; None: float32 when origins and directions are, else float64.
         threads: at most so many; 0: as many as the process may use.
+        workspace: a Workspace keeps the memory that the batch takes for the next one; None: it is given back.
 
         Returns Hits in the rays' leading shape, on arrays of its own (or on `out`); NumPy scalars for a single ray.
         Raises ValueError or TypeError naming the argument, IndexOutOfRange naming the entry of `skip`, NotCommitted,
@@ -227,6 +235,7 @@ class Queries(Handle):
             out,
             dtype,
             threads,
+            workspace,
         )
 
     def _intersect_one(
@@ -273,10 +282,11 @@ class Queries(Handle):
         skip: Optional[SkipLike] = None,
         out: Optional[Array] = None,
         threads: Count = 0,
+        workspace: Optional[Workspace] = None,
     ) -> npt.NDArray[np.bool_]:
         """Whether each ray hits anything.
 
-        origins, directions, tmin, tmax, skip, threads: as for intersect.
+        origins, directions, tmin, tmax, skip, threads, workspace: as for intersect.
         out: the caller's array to fill: bool, uint8, uint32 or uint64, in the rays' leading shape, any strides.
 
         Returns a bool array in the rays' leading shape (or `out`); a NumPy bool for a single ray.
@@ -297,6 +307,7 @@ class Queries(Handle):
             lambda c_rays, c_output, options: lib.rw_scene_occluded_batch(reference.address, c_rays, c_output, options),
             out,
             threads,
+            workspace,
         )
 
     def intersect_all(
@@ -310,13 +321,14 @@ class Queries(Handle):
         want: Iterable[str] = EVERYTHING,
         dtype: Optional[npt.DTypeLike] = None,
         threads: Count = 0,
+        workspace: Optional[Workspace] = None,
     ) -> AllHits:
         """Every hit of each ray, each ray's sorted by t, then by (instance, geometry, primitive).
 
         A surface that is crossed at an edge or a corner counts once: the first hit is the one that intersect finds, and
         their number is even for a ray that starts outside a closed mesh.
 
-        origins, directions, tmin, tmax, skip, want, dtype, threads: as for intersect.
+        origins, directions, tmin, tmax, skip, want, dtype, threads, workspace: as for intersect.
 
         Returns AllHits on arrays of its own; for a single ray offsets is [0, number of hits].
         Raises as intersect does. Threads: any.
@@ -330,7 +342,7 @@ class Queries(Handle):
         if rays.shape == ():
             return self._intersect_all_of_one(reference, rays, names, float_dtype)
 
-        batch = batch_of(rays, threads)
+        batch = batch_of(rays, threads, workspace)
         offsets = np.zeros(rays.count + 1, np.uint64)
         needed = ctypes.c_uint64()
         capacity = GUESSED_HITS_PER_RAY * rays.count

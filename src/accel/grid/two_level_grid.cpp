@@ -35,9 +35,9 @@ struct InnerCell {
 
 // Of some coarse bricks.
 struct SplitPart {
-    PageVector<std::uint32_t> own;
-    PageVector<std::uint32_t> inner;
-    PageVector<InnerCell> cells;
+    std::vector<std::uint32_t> own;
+    std::vector<std::uint32_t> inner;
+    std::vector<InnerCell> cells;
 };
 
 class CoarseSplit {

@@ -106,6 +106,8 @@ statuses! {
     OVERLAP = RW_ERROR_OVERLAP;
     /// Two outputs, or an output and the rays, share memory.
     SHARED_MEMORY = RW_ERROR_SHARED_MEMORY;
+    /// A workspace serves one batch at a time, and another one is at it.
+    IN_USE = RW_ERROR_IN_USE;
 }
 
 impl Status {
