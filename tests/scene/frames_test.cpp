@@ -79,7 +79,7 @@ TEST_F(Frames, TakeNothingFromTheSystemInSteadyState) {
                 if (frame == frames_to_settle) settled = fresh_blocks();
                 scene = next_frame(*scene, moved(soup, frame), policy);
             }
-            // An array that is longer than any before finds no block that will do.
+            // An array that is longer than any before finds no block that will do; a two-level grid has one in each frame.
             const std::uint64_t longer = structure == Structure::two_level_grid ? 5 : lengths_vary(structure) ? 2 : 0;
             EXPECT_LE(fresh_blocks(), settled + longer)
                 << name_of(structure) << ", policy " << static_cast<int>(policy);

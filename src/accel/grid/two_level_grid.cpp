@@ -81,7 +81,7 @@ public:
         }
     }
 
-    const PageVector<InnerCell>& cells() const { return cells_; }
+    const std::vector<InnerCell>& cells() const { return cells_; }
     const PageArray<std::uint32_t>& inner_references() const { return inner_references_; }
 
 private:
@@ -172,7 +172,7 @@ private:
     std::vector<SplitPart> parts_;
     PageArray<std::uint32_t> own_counts_;
     PageArray<std::uint32_t> inner_references_;
-    PageVector<InnerCell> cells_;
+    std::vector<InnerCell> cells_;
 };
 
 CellLattice inner_lattice(const InnerCell& cell, double density, const Box& scene) {
@@ -194,7 +194,7 @@ CellLattice inner_lattice(const InnerCell& cell, double density, const Box& scen
 class InnerReferences {
 public:
     InnerReferences(const Primitives& primitives, const PageArray<std::uint32_t>& references,
-                    const PageVector<InnerGrid>& grids, const PageVector<std::uint64_t>& ends)
+                    const std::vector<InnerGrid>& grids, const std::vector<std::uint64_t>& ends)
         : primitives_(primitives), references_(references), grids_(grids), ends_(ends) {}
 
     std::uint64_t blocks() const { return (references_.size() + references_per_block - 1) / references_per_block; }
@@ -215,12 +215,12 @@ public:
 private:
     const Primitives& primitives_;
     const PageArray<std::uint32_t>& references_;
-    const PageVector<InnerGrid>& grids_;
-    const PageVector<std::uint64_t>& ends_; // of each grid
+    const std::vector<InnerGrid>& grids_;
+    const std::vector<std::uint64_t>& ends_; // of each grid
 };
 
 // False where there are more numbers than that.
-bool make_inner_grids(const PageVector<InnerCell>& cells, double density, const Box& scene, TwoLevels& levels) {
+bool make_inner_grids(const std::vector<InnerCell>& cells, double density, const Box& scene, TwoLevels& levels) {
     levels.inner.clear();
     levels.inner.reserve(cells.size());
     std::uint64_t numbers = 0;
@@ -235,7 +235,7 @@ bool make_inner_grids(const PageVector<InnerCell>& cells, double density, const 
 
 void build_inner_grids(const BuildInput& input, const TwoLevelOptions& options, const CoarseSplit& split,
                        TwoLevels& levels) {
-    PageVector<std::uint64_t> ends;
+    std::vector<std::uint64_t> ends;
     std::uint64_t end = 0;
     for (const InnerCell& cell : split.cells()) ends.push_back(end += cell.count);
     const std::uint64_t most = std::max<std::uint64_t>(end, max_grid_references(input.primitives.hittable_count()));
