@@ -44,7 +44,7 @@ Lanes bins_per_unit(const Bounds& bounds) {
 
 class PlaneChoice {
 public:
-    PlaneChoice(const KdTask& task, const KdCosts& costs) : task_(task), costs_(costs) {}
+    explicit PlaneChoice(const KdCosts& costs) : costs_(costs) {}
 
     void consider(const CellAreas& areas, int axis, float position, std::uint32_t below, std::uint32_t above,
                   bool flat_below) {
@@ -58,7 +58,6 @@ public:
     KdPlane best;
 
 private:
-    const KdTask& task_;
     const KdCosts& costs_;
 };
 
@@ -80,7 +79,7 @@ KdPlane find_binned_plane(const BuildItem* items, const KdTask& task, const KdCo
         return stride == 1 ? counted : static_cast<std::uint32_t>(static_cast<double>(counted) * weight + 0.5);
     };
 
-    PlaneChoice choice(task, costs);
+    PlaneChoice choice(costs);
     for (int axis = 0; axis < 3; ++axis) {
         const CellAreas areas(task.cell, axis);
         choice.consider(areas, axis, bounds.lower[axis], 0, task.count, false);
