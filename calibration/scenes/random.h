@@ -1,6 +1,7 @@
 // Random numbers that are the same everywhere; the standard library's distributions are not.
 #pragma once
 
+#include "base/split_mix.h"
 #include "base/vec.h"
 
 #include <cmath>
@@ -8,17 +9,17 @@
 
 namespace raywise::workloads {
 
-// SplitMix64 (Steele, Lea, Flood 2014): a counter and a mixing function. Good enough for scenes, and any seed will do.
+// Any seed will do.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
 
     std::uint64_t bits() {
-        state_ += 0x9E3779B97F4A7C15u;
+        state_ += split_mix_step;
         return mix(state_);
     }
     // In [0, 1)
-    double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    double uniform() { return unit_number(bits()); }
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
     Vec3 in_cube() {
@@ -40,11 +41,7 @@ public:
         }
     }
 
-    static std::uint64_t mix(std::uint64_t x) {
-        x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-        x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-        return x ^ (x >> 31);
-    }
+    static std::uint64_t mix(std::uint64_t x) { return split_mix(x); }
 
 private:
     std::uint64_t state_;

@@ -1,6 +1,7 @@
 #include "scene/look.h"
 
-#include "accel/grid/uniform_grid.h"
+#include "accel/grid/cell_lattice.h"
+#include "base/split_mix.h"
 
 #include <algorithm>
 #include <array>
@@ -10,13 +11,6 @@
 namespace raywise {
 namespace {
 
-// Fast hashing of 64 bits (SplitMix64's finaliser; Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
 // One out of each of `sampled` equal parts of all, at no regular distance: meshes repeat themselves.
 std::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32_t sampled) {
     const std::uint32_t count = primitives.count();
@@ -25,19 +19,16 @@ std::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32_t sa
     for (std::uint64_t i = 0; i < sampled; ++i) {
         const std::uint64_t begin = i * count / sampled;
         const std::uint64_t size = (i + 1) * count / sampled - begin;
-        const auto primitive = static_cast<std::uint32_t>(begin + mixed(i + 1) % size);
+        const auto primitive = static_cast<std::uint32_t>(begin + split_mix(i + 1) % size);
         if (primitives.is_hittable(primitive)) chosen.push_back(primitive);
     }
     return chosen;
 }
 
-// Half the surface of a box: in the mean over all directions, twice what it covers.
-double half_area(const Vec3& size) { return size.x * size.y + size.y * size.z + size.z * size.x; }
-
 // The grid that the features speak of.
 struct Cells {
-    explicit Cells(const Box& bounds, double triangles)
-        : lower(bounds.lower),
+    explicit Cells(const Box& bounds_of_scene, double triangles)
+        : bounds(bounds_of_scene),
           resolution(grid_resolution(bounds.size(), triangles, feature_cells_per_triangle)),
           size(bounds.size()) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +42,7 @@ struct Cells {
 
     // Between the cells along one axis there are planes; a line that meets the box meets each with the chance that areas give.
     double along_line() const {
-        const double area = half_area(size);
+        const double area = bounds.half_area();
         if (!(area > 0.0)) return max_component(Vec3(count(0), count(1), count(2)));
         double cells = 1.0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +54,8 @@ struct Cells {
     std::uint64_t at(const Vec3& point) const {
         std::uint64_t cell = 0;
         for (int axis = 2; axis >= 0; --axis) {
-            const double place = std::clamp((point[axis] - lower[axis]) * per_unit[axis], 0.0, count(axis) - 1.0);
+            const double place =
+                std::clamp((point[axis] - bounds.lower[axis]) * per_unit[axis], 0.0, count(axis) - 1.0);
             cell = cell * resolution[static_cast<std::size_t>(axis)] + static_cast<std::uint64_t>(place);
         }
         return cell;
@@ -75,7 +67,7 @@ struct Cells {
         return cells;
     }
 
-    Vec3 lower;
+    Box bounds;
     std::array<std::uint32_t, 3> resolution;
     Vec3 size;
     Vec3 per_unit{0.0};
@@ -104,7 +96,7 @@ SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
     const double triangles = static_cast<double>(primitives.hittable_count());
     // Not the bounds: those of the triangles with area alone may not be known yet.
     const Cells cells(primitives.outer_bounds(), triangles);
-    const double area = half_area(cells.size);
+    const double area = cells.bounds.half_area();
     SceneFeatures features;
     features.triangles = triangles;
     features.cells = cells.along_line();
@@ -112,7 +104,7 @@ SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
     cell_of_middle.reserve(chosen.size());
     for (const std::uint32_t primitive : chosen) {
         const Box box = primitives.box(primitive);
-        features.boxes += area > 0.0 ? half_area(box.size()) / area : 1.0;
+        features.boxes += area > 0.0 ? box.half_area() / area : 1.0;
         features.references += cells.reached_by(box.size());
         cell_of_middle.push_back(cells.at(box.center()));
     }

@@ -1,20 +1,18 @@
 #include "scene/sample_rays.h"
 
+#include "base/split_mix.h"
+
 #include <cmath>
 #include <cstdint>
 
 namespace raywise {
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014): small, and the same on every platform, which std::uniform_real_distribution is not.
 class Random {
 public:
     double operator()() { // in [0, 1)
-        state_ += 0x9E3779B97F4A7C15u;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+        state_ += split_mix_step;
+        return unit_number(split_mix(state_));
     }
 
 private:
