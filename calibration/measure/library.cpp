@@ -61,7 +61,7 @@ rw_triangles triangles_of(const workloads::Mesh& mesh) {
 void expect_rays_of(rw_scene* scene, const char* structure, std::uint64_t triangles) {
     constexpr std::uint64_t triangles_per_ray = 64;
     for (const Structure each : all_structures()) {
-        if (!shrinks(each) || std::strcmp(structure, name_of(each)) != 0) continue;
+        if (!differs_by_rays(each) || std::strcmp(structure, name_of(each)) != 0) continue;
         rw_expected_rays expected = sized<rw_expected_rays>();
         expected.kind = RW_RAYS_ANY_KIND;
         expected.count = std::max<std::uint64_t>(triangles / triangles_per_ray, 8);

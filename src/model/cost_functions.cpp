@@ -6,20 +6,38 @@
 
 namespace raywise {
 
-Cost without_blocks(const MachineConstants& constants, const Cost& gathered) {
-    Cost cost = gathered;
-    cost.bytes = constants.structures[Structure::linear_scan].bytes.fixed;
-    return cost;
+namespace {
+
+Cost without_blocks(const MachineConstants& constants, const Cost& cost) {
+    Cost smaller = cost;
+    smaller.bytes = constants.structures[Structure::linear_scan].bytes.fixed;
+    return smaller;
 }
 
-Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes) {
+Cost with_fewer_cells(const Cost& cost, const SceneFeatures& features, double bytes) {
     // A number for each triangle in its cell, more for those on an edge, and the cells.
     constexpr double least_per_triangle = 8.0;
-    if (cost.bytes <= bytes || !shrinks(structure) || bytes < least_per_triangle * features.triangles) return cost;
+    if (bytes < least_per_triangle * features.triangles) return cost;
     Cost smaller = cost;
     smaller.ray_ns *= cost.bytes / bytes;
     smaller.bytes = bytes;
     return smaller;
+}
+
+} // namespace
+
+Cost within(Structure structure, const MachineConstants& constants, const Cost& cost, const SceneFeatures& features,
+            double bytes) {
+    if (cost.bytes <= bytes) return cost;
+    switch (spared(structure)) {
+        case Spared::blocks:
+            return without_blocks(constants, cost);
+        case Spared::cells:
+            return with_fewer_cells(cost, features, bytes);
+        case Spared::nothing:
+            break;
+    }
+    return cost;
 }
 
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,

@@ -17,12 +17,11 @@ struct Cost {
     double total_ns(double rays) const { return build_ns + rays * ray_ns; }
 };
 
-// The same scan without blocks of its own: what it takes for them is memory alone, as a batch reads the caller's arrays once for many rays.
-Cost without_blocks(const MachineConstants& constants, const Cost& gathered);
-
-// The same structure within so many bytes, where it shrinks and they suffice; else it stays as it is. Cells of a grid are fewer then, and what
-// each holds, which is what a ray's time goes into, grows as they do.
-Cost within(Structure structure, const Cost& cost, const SceneFeatures& features, double bytes);
+// The same structure within so many bytes, where what it can do without is enough; else it stays as it is. A scan without blocks takes as long, as a
+// batch reads the caller's arrays once for many rays. Cells of a grid are fewer, and what each holds, which is what a ray's time goes into,
+// grows as they do.
+Cost within(Structure structure, const MachineConstants& constants, const Cost& cost, const SceneFeatures& features,
+            double bytes);
 
 Cost predict(Structure structure, const MachineConstants& constants, const SceneFeatures& features,
              const Workload& workload);

@@ -35,21 +35,23 @@ struct UnitsOfStructure {
     CostUnits ray;
     CostUnits bytes;
     bool needs_view;
-    bool shrinks;
+    bool differs_by_rays;
+    Spared spared;
 };
 
 // In the order of structure_list.def.
 constexpr UnitsOfStructure table[] = {
-    {Structure::linear_scan, CostUnits(n), CostUnits(n), CostUnits(n), false, false},
-    {Structure::uniform_grid, CostUnits(n, references), grid_ray, CostUnits(n, references), false, true},
-    {Structure::kd_tree, CostUnits(n_log_n, references), tree_ray, CostUnits(n, references), false, false},
-    {Structure::bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false},
-    {Structure::projected_bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), true, false},
-    {Structure::bvh_quality, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false},
+    {Structure::linear_scan, CostUnits(n), CostUnits(n), CostUnits(n), false, false, Spared::blocks},
+    {Structure::uniform_grid, CostUnits(n, references), grid_ray, CostUnits(n, references), false, true, Spared::cells},
+    {Structure::kd_tree, CostUnits(n_log_n, references), tree_ray, CostUnits(n, references), false, false,
+     Spared::nothing},
+    {Structure::bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false, Spared::nothing},
+    {Structure::projected_bvh, CostUnits(n, n_log_n), tree_ray, CostUnits(n), true, false, Spared::nothing},
+    {Structure::bvh_quality, CostUnits(n, n_log_n), tree_ray, CostUnits(n), false, false, Spared::nothing},
     // Radix sort: as many passes whatever the number.
-    {Structure::bvh_morton, CostUnits(n), tree_ray, CostUnits(n), false, false},
+    {Structure::bvh_morton, CostUnits(n), tree_ray, CostUnits(n), false, false, Spared::nothing},
     {Structure::two_level_grid, CostUnits(n, references), CostUnits(log_n, cells, filled, boxes),
-     CostUnits(n, references), false, true},
+     CostUnits(n, references), false, true, Spared::cells},
 };
 
 constexpr bool is_complete() {
@@ -69,6 +71,7 @@ const CostUnits& build_units(Structure structure) { return units_of(structure).b
 const CostUnits& ray_units(Structure structure) { return units_of(structure).ray; }
 const CostUnits& byte_units(Structure structure) { return units_of(structure).bytes; }
 bool needs_view(Structure structure) { return units_of(structure).needs_view; }
-bool shrinks(Structure structure) { return units_of(structure).shrinks; }
+bool differs_by_rays(Structure structure) { return units_of(structure).differs_by_rays; }
+Spared spared(Structure structure) { return units_of(structure).spared; }
 
 } // namespace raywise

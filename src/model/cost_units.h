@@ -38,7 +38,15 @@ const CostUnits& byte_units(Structure structure);
 
 // Whether the structure needs a view to differ from another candidate; without one it is no candidate.
 bool needs_view(Structure structure);
-// Whether it can be built smaller than it would like, down to some bytes per triangle.
-bool shrinks(Structure structure);
+// Whether it is made otherwise for few rays than for many.
+bool differs_by_rays(Structure structure);
+
+// What a structure does without where memory is short.
+enum class Spared {
+    nothing,
+    blocks, // that a scan copies its triangles to
+    cells   // of a grid, which are fewer then
+};
+Spared spared(Structure structure);
 
 } // namespace raywise

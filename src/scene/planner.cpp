@@ -66,11 +66,9 @@ private:
             candidate.structure = structure;
             candidate.predicted =
                 raywise::predict(structure, request_.profile->constants, plan_.features, request_.workload);
-            if (structure == Structure::linear_scan && exceeds_limit(candidate.predicted.bytes))
-                candidate.predicted = without_blocks(request_.profile->constants, candidate.predicted);
             if (request_.memory_limit != 0) {
-                candidate.predicted =
-                    within(structure, candidate.predicted, plan_.features, static_cast<double>(request_.memory_limit));
+                candidate.predicted = within(structure, request_.profile->constants, candidate.predicted,
+                                             plan_.features, static_cast<double>(request_.memory_limit));
             }
             if (is_ready(structure)) {
                 candidate.predicted.build_ns = 0.0;

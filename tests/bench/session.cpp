@@ -160,6 +160,26 @@ void time_rays(SceneUnderTest& scene, Cell& cell, std::vector<Entry>& entries,
     compare_hits(scene.session(), cell, entries, hits);
 }
 
+calibration::Timed timed_build(const Subject& subject, const BuildRequest& request, calibration::Clock clock) {
+    return [&subject, request, clock](std::uint64_t calls) {
+        calibration::Elapsed elapsed{0.0, 0.0};
+        const double start = clock();
+        for (std::uint64_t i = 0; i < calls; ++i) {
+            const double begin = clock();
+            const std::unique_ptr<Built> built = subject.build(request);
+            elapsed.counted += clock() - begin;
+        }
+        elapsed.spent = clock() - start;
+        return elapsed;
+    };
+}
+
+std::size_t thinned_by(const Built& built, const RaySet& rays, Question question, double pass_ns) {
+    const RaySet few = one_in(rays, std::max<std::size_t>(rays.size() / 100, 1));
+    const double ns = ns_per_ray(built, few, question);
+    return std::max<std::size_t>(1, static_cast<std::size_t>(ns * static_cast<double>(rays.size()) / pass_ns));
+}
+
 std::uint64_t affordable_rays(SceneUnderTest& scene, std::size_t kind, Question question, std::uint64_t wanted,
                               double pass_ns) {
     constexpr std::uint64_t trial = 1000;

@@ -108,6 +108,12 @@ struct Entry {
 // Times the entries in turns and adds Mray/s to the cell; warns where hits differ from the first peer's.
 void time_rays(SceneUnderTest& scene, Cell& cell, std::vector<Entry>& entries, const calibration::TimingLimits& limits);
 
+// Builds, and counts what that takes but not giving back what was built.
+calibration::Timed timed_build(const Subject& subject, const BuildRequest& request, calibration::Clock clock);
+
+// Every how manyth ray a subject is asked so that a pass takes no longer than so many nanoseconds: by a trial with some of them.
+std::size_t thinned_by(const Built& built, const RaySet& rays, Question question, double pass_ns);
+
 // How many rays of a kind a pass of so many nanoseconds allows, at most `wanted`: by a trial with ours and the
 // first peer that fits.
 std::uint64_t affordable_rays(SceneUnderTest& scene, std::size_t kind, Question question, std::uint64_t wanted,

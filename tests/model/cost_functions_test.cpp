@@ -50,23 +50,33 @@ TEST(Predict, TellsTheLargerMisfit) {
     EXPECT_DOUBLE_EQ(error(RayKind::shadow), 0.3);
 }
 
-TEST(Within, OnlyWhatShrinksIsTakenSmaller) {
+TEST(Within, OnlyWhatCanDoWithoutIsTakenSmaller) {
     Cost cost;
     cost.build_ns = 1e6;
     cost.ray_ns = 100;
     cost.bytes = 40'000;
     const SceneFeatures features = features_of(1000);
-    const Cost half = within(Structure::uniform_grid, cost, features, 20'000);
+    MachineConstants constants;
+    constants.structures[Structure::linear_scan].bytes.fixed = 120;
+    const auto cost_within = [&](Structure structure, double bytes) {
+        return within(structure, constants, cost, features, bytes);
+    };
+    const Cost half = cost_within(Structure::uniform_grid, 20'000);
     EXPECT_EQ(half.bytes, 20'000);
     EXPECT_EQ(half.ray_ns, 200);
     EXPECT_EQ(half.build_ns, 1e6);
-    EXPECT_EQ(within(Structure::uniform_grid, cost, features, 40'000).ray_ns, 100);
-    EXPECT_EQ(within(Structure::uniform_grid, cost, features, 7'999).bytes, 40'000) << "no room for the references";
-    for (const Structure structure : all_structures()) {
-        const bool is_smaller = within(structure, cost, features, 20'000).bytes < cost.bytes;
-        EXPECT_EQ(is_smaller, shrinks(structure)) << name_of(structure);
+    EXPECT_EQ(cost_within(Structure::uniform_grid, 40'000).ray_ns, 100);
+    EXPECT_EQ(cost_within(Structure::uniform_grid, 7'999).bytes, 40'000) << "no room for the references";
+    for (const double bytes : {1.0, 39'999.0}) {
+        EXPECT_EQ(cost_within(Structure::linear_scan, bytes).bytes, 120);
+        EXPECT_EQ(cost_within(Structure::linear_scan, bytes).ray_ns, 100);
     }
-    EXPECT_FALSE(shrinks(Structure::bvh));
+    EXPECT_EQ(cost_within(Structure::linear_scan, 40'000).bytes, 40'000);
+    for (const Structure structure : all_structures()) {
+        const bool is_smaller = cost_within(structure, 20'000).bytes < cost.bytes;
+        EXPECT_EQ(is_smaller, spared(structure) != Spared::nothing) << name_of(structure);
+    }
+    EXPECT_EQ(spared(Structure::bvh), Spared::nothing);
 }
 
 // A scan of few rays reads the caller's arrays, and keeps nothing.

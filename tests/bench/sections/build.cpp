@@ -5,20 +5,6 @@
 namespace raywise::bench {
 namespace {
 
-calibration::Timed timed_build(const Subject& subject, const BuildRequest& request, calibration::Clock clock) {
-    return [&subject, request, clock](std::uint64_t calls) {
-        calibration::Elapsed elapsed{0.0, 0.0};
-        const double start = clock();
-        for (std::uint64_t i = 0; i < calls; ++i) {
-            const double begin = clock();
-            const std::unique_ptr<Built> built = subject.build(request);
-            elapsed.counted += clock() - begin;
-        }
-        elapsed.spent = clock() - start;
-        return elapsed;
-    };
-}
-
 void measure(SceneUnderTest& scene, unsigned threads) {
     Session& session = scene.session();
     session.show_progress("building, threads: " + std::to_string(threads));

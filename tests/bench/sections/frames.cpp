@@ -62,12 +62,6 @@ void move(const std::vector<float>& rest, const Box& bounds, std::size_t frame, 
     }
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 Cell cell_of(const SceneUnderTest& scene, const std::vector<Taking>& all, const char* query,
              std::vector<double> Taking::*times) {
     Cell cell = scene.cell("frames", "random", Question::closest);
@@ -79,7 +73,7 @@ Cell cell_of(const SceneUnderTest& scene, const std::vector<Taking>& all, const 
         Value value;
         value.subject = each.label;
         value.peer = each.peer;
-        value.value = median(each.*times);
+        value.value = calibration::median(each.*times);
         value.repetitions = static_cast<unsigned>((each.*times).size());
         cell.values.push_back(std::move(value));
     }

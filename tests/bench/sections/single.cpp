@@ -25,18 +25,6 @@ constexpr Asked questions[] = {
     {"shadow", Question::any, true},     {"random", Question::any, false},    {"diffuse", Question::any, false},
 };
 
-// A subject that is slow is asked fewer of the same rays, so that it takes no longer than a few passes of the others.
-std::size_t thinned_by(const Built& built, const RaySet& rays, Question question, double pass_ns) {
-    const RaySet few = one_in(rays, std::max<std::size_t>(rays.size() / 100, 1));
-    QueryRequest request{few};
-    request.question = question;
-    const std::unique_ptr<Query> query = built.query(request);
-    const double start = calibration::processor_ns();
-    query->ask(0, few.size());
-    const double ns = (calibration::processor_ns() - start) / static_cast<double>(few.size());
-    return std::max<std::size_t>(1, static_cast<std::size_t>(ns * static_cast<double>(rays.size()) / pass_ns));
-}
-
 // A cell of all these subjects.
 void measure(SceneUnderTest& scene, std::size_t kind, Question question, const RaySet& rays, const char* cell_section,
              std::initializer_list<const Subjects*> groups) {

@@ -38,7 +38,7 @@ struct Candidates {
             ours.push_back(
                 raywise_subject({name, name_of(structure), this_machine().instruction_set}, session.library));
             all.push_back({ours.back().get(), name, many_rays});
-            if (shrinks(structure)) all.push_back({ours.back().get(), name + ", few rays", few_rays});
+            if (differs_by_rays(structure)) all.push_back({ours.back().get(), name + ", few rays", few_rays});
         }
         for (const auto& subject : session.subjects) {
             for (const char* peer : {"Embree 3 LOW", "Embree 3 MEDIUM", "Embree 3 HIGH"}) {
@@ -65,19 +65,8 @@ void measure_builds(SceneUnderTest& scene, const Candidates& candidates) {
     cell.unit = "ms";
     cell.higher_is_better = false;
     std::vector<calibration::Timed> timed;
-    for (const Candidate& candidate : candidates.all) {
-        timed.push_back([&scene, &candidate](std::uint64_t calls) {
-            calibration::Elapsed elapsed{0.0, 0.0};
-            const double start = calibration::processor_ns();
-            for (std::uint64_t i = 0; i < calls; ++i) {
-                const double begin = calibration::processor_ns();
-                const std::unique_ptr<Built> built = candidate.subject->build(request_for(scene, candidate));
-                elapsed.counted += calibration::processor_ns() - begin;
-            }
-            elapsed.spent = calibration::processor_ns() - start;
-            return elapsed;
-        });
-    }
+    for (const Candidate& candidate : candidates.all)
+        timed.push_back(timed_build(*candidate.subject, request_for(scene, candidate), calibration::processor_ns));
     const std::vector<calibration::Timing> timings = time_in_turns(timed, session.effort.build_timing);
     for (std::size_t i = 0; i < timings.size(); ++i) {
         Value value;
@@ -89,19 +78,6 @@ void measure_builds(SceneUnderTest& scene, const Candidates& candidates) {
         cell.values.push_back(std::move(value));
     }
     session.cells.push_back(std::move(cell));
-}
-
-// Who is slow is asked fewer of the same rays.
-RaySet thinned(const Built& built, const RaySet& rays, Question question, double pass_ns) {
-    const RaySet few = one_in(rays, std::max<std::size_t>(rays.size() / 32, 1));
-    QueryRequest request{few};
-    request.question = question;
-    const std::unique_ptr<Query> query = built.query(request);
-    const double start = calibration::processor_ns();
-    query->ask(0, few.size());
-    const double ns = (calibration::processor_ns() - start) / static_cast<double>(few.size());
-    return one_in(rays,
-                  std::max<std::size_t>(1, static_cast<std::size_t>(ns * static_cast<double>(rays.size()) / pass_ns)));
 }
 
 void measure_rays(SceneUnderTest& scene, const Candidates& candidates) {
@@ -122,7 +98,8 @@ void measure_rays(SceneUnderTest& scene, const Candidates& candidates) {
         cell.count = rays.size();
         std::vector<Entry> entries;
         for (std::size_t i = 0; i < built.size(); ++i) {
-            const RaySet few = thinned(*built[i], rays, question, 4.0 * pass_ns);
+            // Who is slow is asked fewer of the same rays.
+            const RaySet few = one_in(rays, thinned_by(*built[i], rays, question, 4.0 * pass_ns));
             QueryRequest request{few};
             request.question = question;
             entries.push_back(
