@@ -39,6 +39,26 @@ struct Listed {
     }
 };
 
+// Eight primitives as triangles of the mesh that the first one is in.
+struct ListedTriangles {
+    const TriangleMesh& mesh;
+    std::uint32_t triangles[triangle_block_size];
+    bool has_rows; // all are of that mesh, and its vertices are rows: their corners can be gathered
+
+    HWY_INLINE ListedTriangles(const Primitives& primitives, const std::uint32_t (&ids)[triangle_block_size])
+        : ListedTriangles(primitives, ids, primitives.locate(ids[0])) {}
+
+private:
+    HWY_INLINE ListedTriangles(const Primitives& primitives, const std::uint32_t (&ids)[triangle_block_size],
+                               const PrimitiveId& first)
+        : mesh(*primitives.meshes()[first.geometry]), has_rows(mesh.arrays().vertices.has_rows()) {
+        for (std::uint32_t i = 0; i < triangle_block_size; ++i) {
+            triangles[i] = ids[i] - (ids[0] - first.primitive);
+            has_rows &= triangles[i] < mesh.triangle_count();
+        }
+    }
+};
+
 // No corner of the block is farther from the origin along any axis.
 template <class T>
 HWY_INLINE double farthest_corner(const TriangleBlock<T>& block, const Vec3& origin) {
@@ -77,21 +97,15 @@ HWY_INLINE bool test_listed(const Primitives& primitives, const BlockRay& block_
     for (std::size_t next = 0; next < count;) {
         next += listed.take(primitives, list + next, count - next);
         if (listed.n == 0) break;
-        const PrimitiveId first = primitives.locate(listed.ids[0]);
-        const TriangleMesh& mesh = *primitives.meshes()[first.geometry];
-        bool is_in_lanes = mesh.arrays().vertices.has_rows();
-        std::uint32_t triangles[triangle_block_size]; // in the mesh
-        for (std::uint32_t i = 0; i < triangle_block_size; ++i) {
-            triangles[i] = listed.ids[i] - (listed.ids[0] - first.primitive);
-            is_in_lanes &= triangles[i] < mesh.triangle_count();
-        }
-        if (!is_in_lanes) { // of several meshes, or with their coordinates apart
+        const ListedTriangles of_mesh(primitives, listed.ids);
+        const TriangleMesh& mesh = of_mesh.mesh;
+        if (!of_mesh.has_rows) {
             for (std::uint32_t i = 0; i < listed.n; ++i) {
                 PrimitiveHit hit;
                 if (primitives.test(ray, listed.ids[i], hit) && collector.collect(hit)) return true;
             }
-        } else if (mesh.is_float32() ? test_in_lanes<float>(block_ray, mesh, triangles, listed, collector)
-                                     : test_in_lanes<double>(block_ray, mesh, triangles, listed, collector)) {
+        } else if (mesh.is_float32() ? test_in_lanes<float>(block_ray, mesh, of_mesh.triangles, listed, collector)
+                                     : test_in_lanes<double>(block_ray, mesh, of_mesh.triangles, listed, collector)) {
             return true;
         }
     }

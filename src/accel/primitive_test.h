@@ -7,8 +7,11 @@
 #include "geometry/primitives.h"
 #include "ray/exact_ray.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 namespace raywise {
 
@@ -34,6 +37,18 @@ bool test_primitives(const Primitives& primitives, const ExactRay& ray, const st
         if (primitives.test(ray, list[i], hit) && collector.collect(hit)) return true;
     }
     return false;
+}
+
+// Hands the hits of a ray with all primitives to the collector: where a structure cannot tell which it may leave out.
+template <class Collector>
+void test_all_primitives(const Primitives& primitives, const ExactRay& ray, Collector& collector) {
+    std::array<std::uint32_t, 256> list;
+    for (std::uint32_t first = 0; first < primitives.count();) {
+        const std::uint32_t n = std::min(static_cast<std::uint32_t>(list.size()), primitives.count() - first);
+        std::iota(list.begin(), list.begin() + n, first);
+        if (test_primitives(primitives, ray, list.data(), n, collector)) return;
+        first += n;
+    }
 }
 
 } // namespace raywise

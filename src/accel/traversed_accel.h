@@ -9,7 +9,6 @@
 #include "accel/collectors.h"
 #include "accel/primitive_test.h"
 
-#include <numeric>
 #include <vector>
 
 namespace raywise {
@@ -37,14 +36,6 @@ public:
 
 protected:
     const Primitives& primitives() const { return primitives_; }
-
-    // Where the structure does not help.
-    template <class Collector>
-    void test_all_primitives(const ExactRay& ray, Collector& collector) const {
-        std::vector<std::uint32_t> list(primitives_.count());
-        std::iota(list.begin(), list.end(), 0u);
-        test_primitives(primitives_, ray, list.data(), list.size(), collector);
-    }
 
 private:
     const Derived& derived() const { return static_cast<const Derived&>(*this); }

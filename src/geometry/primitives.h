@@ -66,6 +66,9 @@ public:
     std::uint32_t count() const { return count_; } // all ids
     const std::vector<std::shared_ptr<const TriangleMesh>>& meshes() const { return meshes_; }
     std::uint64_t invalid_count() const { return invalid_count_; }
+    bool is_float32() const { // the coordinates of all meshes
+        return std::all_of(meshes_.begin(), meshes_.end(), [](const auto& mesh) { return mesh->is_float32(); });
+    }
 
     // Settles the areas if they are not: for whoever asks much of what follows.
     const Areas& settle_areas(const Parallel& parallel) const;

@@ -1,6 +1,7 @@
 // Blocks of triangles: the layout that leaves keep their triangles in and that test_triangle_block (triangle_block-inl.h) reads.
 #pragma once
 
+#include "base/page_array.h"
 #include "geometry/triangle_mesh.h"
 
 #include <cstddef>
@@ -47,6 +48,17 @@ private:
 };
 
 inline constexpr std::size_t triangle_block_padding = triangle_block_size * sizeof(double);
+
+inline constexpr std::size_t block_bytes_per_triangle(bool is_float64) {
+    return is_float64 ? TriangleBlock<double>::bytes_per_triangle : TriangleBlock<float>::bytes_per_triangle;
+}
+
+// Room for blocks of so many bytes, and the padding behind them.
+inline PageArray<std::byte> room_for_blocks(std::size_t bytes) {
+    PageArray<std::byte> blocks(bytes + triangle_block_padding);
+    std::memset(blocks.data() + bytes, 0, triangle_block_padding);
+    return blocks;
+}
 
 template <class T>
 void write_block_id(std::byte* block, std::uint32_t pitch, std::uint32_t i, std::uint32_t id) {

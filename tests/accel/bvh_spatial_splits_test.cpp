@@ -28,8 +28,8 @@ BvhTree build_cut(const BuildInput& input, const BvhBuildOptions& options, doubl
     BvhTree tree;
     tree.frame = scene_frame(input.primitives);
     const auto report = [&](std::uint64_t /*primitives*/) { input.progress.report(0.0, "bvh"); };
-    build_with_spatial_splits(gather_references(input, tree.frame, report), budget, input, TreeCosts(input, options),
-                              report, tree);
+    build_with_spatial_splits(gather_references(input, tree.frame, dense_region(input.primitives).most, report), budget,
+                              input, TreeCosts(input, options), report, tree);
     return tree;
 }
 

@@ -130,7 +130,7 @@ public:
     template <class Collector>
     void traverse(const ExactRay& ray, Collector& collector) const {
         const CellRay cell_ray(ray, primitives().bounds(), primitives().largest_extent());
-        if (!cell_ray.is_known()) return test_all_primitives(ray, collector);
+        if (!cell_ray.is_known()) return test_all_primitives(primitives(), ray, collector);
         traverse_boxes(tree_, cell_ray, [&](const BvhNode& leaf, double& last) {
             if (test_primitives(primitives(), ray, &tree_.references[leaf.first], leaf.count, collector)) return true;
             last = cell_ray.upper_end(collector.limit());

@@ -432,4 +432,28 @@ inline std::vector<NamedSoup> hard_scenes() {
     };
 }
 
+// ---- progress ----
+
+template <class Structure>
+void expect_stops_when_asked(int call) {
+    int calls = 0;
+    World world(random_soup(50000, 0.01, 34), 2, [&](double, const char*) { return ++calls == call; });
+    EXPECT_THROW(Structure(world.input()), Error);
+}
+
+template <class Structure>
+void expect_progress_from_zero_to_one() {
+    std::vector<double> fractions;
+    World world(random_soup(50000, 0.01, 34), 1, [&](double fraction, const char*) {
+        fractions.push_back(fraction);
+        return false;
+    });
+    const Structure structure(world.input());
+    ASSERT_GE(fractions.size(), 4u);
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+        EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
+        EXPECT_LE(fractions[i], 1.0);
+    }
+}
+
 } // namespace raywise::grid_kd_testing

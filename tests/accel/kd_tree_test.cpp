@@ -155,19 +155,7 @@ TEST(KdTree, StopsWhenAsked) {
     }
 }
 
-TEST(KdTree, ReportsProgressFromZeroToOne) {
-    std::vector<double> fractions;
-    World world(random_soup(50000, 0.01, 44), 1, [&](double fraction, const char*) {
-        fractions.push_back(fraction);
-        return false;
-    });
-    const KdTree tree(world.input());
-    ASSERT_GE(fractions.size(), 4u);
-    for (std::size_t i = 0; i < fractions.size(); ++i) {
-        EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
-        EXPECT_LE(fractions[i], 1.0);
-    }
-}
+TEST(KdTree, ReportsProgressFromZeroToOne) { expect_progress_from_zero_to_one<KdTree>(); }
 
 TEST(KdTree, TakesLessThanItWantsWhereMemoryIsShort) {
     Soup soup;

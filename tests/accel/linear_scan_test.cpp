@@ -57,19 +57,7 @@ TEST(LinearScan, AnswersFarFromTheOrigin) {
 
 TEST(LinearScan, AnswersRaysFromVeryFarAway) {
     const auto world = world_of(ball(6, 1.0), every_layout()[0]);
-    const Triangles triangles = world->triangles();
-    const Box& bounds = world->primitives().bounds();
-    Random random(5);
-    std::vector<Ray> rays;
-    for (const double distance : {5.0, 1e3, 1e6, 1e9, 1e15, 1e17, 1e18, 1e20, 1e30, 1e300}) {
-        for (int i = 0; i < 12; ++i) {
-            const Vec3 target = interesting_point(triangles, bounds, random);
-            Vec3 direction = i % 2 == 0 ? random.direction() : Vec3(0.0);
-            if (i % 2 == 1) direction[i % 3] = 1.0; // hits from everywhere
-            rays.push_back({target - distance * direction, 0.0, direction, infinity});
-        }
-    }
-    const Expected expected(*world, rays);
+    const Expected expected(*world, rays_from_far_away(*world));
     EXPECT_GT(expected.hits(), 60u);
     expect_answers_everywhere(*world, expected);
 }
@@ -118,20 +106,13 @@ TEST(LinearScan, PassesOverWhatCannotBeHit) {
         EXPECT_GT(check(*world_of(triangles, layout), 30, 8), 8u);
 
         World invalid;
-        std::vector<Vec3> vertices;
-        std::vector<std::uint64_t> indices;
-        for (const Corners& corners : triangles) {
-            for (const Vec3& p : corners) {
-                indices.push_back(vertices.size());
-                vertices.push_back(p);
-            }
-        }
-        vertices[40].x = std::nan("");
-        vertices[200].z = infinity;
-        vertices.back().y = -infinity;
-        if (layout.indexed) indices[100] = vertices.size();
-        if (layout.indexed) indices[101] = 0xFFFFFFFF;
-        invalid.add(vertices, indices, layout, true);
+        Unshared mesh(triangles);
+        mesh.vertices[40].x = std::nan("");
+        mesh.vertices[200].z = infinity;
+        mesh.vertices.back().y = -infinity;
+        if (layout.indexed) mesh.indices[100] = mesh.vertices.size();
+        if (layout.indexed) mesh.indices[101] = 0xFFFFFFFF;
+        invalid.add(mesh.vertices, mesh.indices, layout, true);
         invalid.finish();
         EXPECT_GE(invalid.primitives().invalid_count(), 3u);
         EXPECT_GT(check(invalid, 30, 8), 8u);

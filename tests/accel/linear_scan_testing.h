@@ -20,21 +20,29 @@ namespace raywise::scan_testing {
 using namespace bvh_testing;
 using oracle::PlainScan;
 
-// Meshes, each in a layout of its own, with all that a build asks for.
-class World {
-public:
-    void add(const Triangles& triangles, const Layout& layout, bool skip_invalid = false) {
-        std::vector<Vec3> vertices;
-        std::vector<std::uint64_t> indices;
+// Vertices that no two triangles share, and their numbers.
+struct Unshared {
+    std::vector<Vec3> vertices;
+    std::vector<std::uint64_t> indices;
+
+    explicit Unshared(const Triangles& triangles) {
         for (const Corners& corners : triangles) {
             for (const Vec3& p : corners) {
                 indices.push_back(vertices.size());
                 vertices.push_back(p);
             }
         }
+    }
+};
+
+// Meshes, each in a layout of its own, with all that a build asks for.
+class World {
+public:
+    void add(const Triangles& triangles, const Layout& layout, bool skip_invalid = false) {
+        Unshared mesh(triangles);
         // Some begin with the last vertex of all, which has nothing behind it to be read.
-        for (std::size_t i = 0; i + 3 < indices.size(); i += 57) indices[i] = vertices.size() - 1;
-        add(vertices, indices, layout, skip_invalid);
+        for (std::size_t i = 0; i + 3 < mesh.indices.size(); i += 57) mesh.indices[i] = mesh.vertices.size() - 1;
+        add(mesh.vertices, mesh.indices, layout, skip_invalid);
     }
     void add(const std::vector<Vec3>& vertices, const std::vector<std::uint64_t>& indices, const Layout& layout,
              bool skip_invalid = false) {
@@ -142,6 +150,22 @@ inline void expect_answers_everywhere(World& world, const Expected& expected) {
             ASSERT_NO_FATAL_FAILURE(expect_answers(scan, expected));
         }
     });
+}
+
+// Rays that start at very different distances, half of them along an axis, so that they hit from everywhere.
+inline std::vector<Ray> rays_from_far_away(const World& world) {
+    const Triangles triangles = world.triangles();
+    Random random(5);
+    std::vector<Ray> rays;
+    for (const double distance : {5.0, 1e3, 1e6, 1e9, 1e15, 1e17, 1e18, 1e20, 1e30, 1e300}) {
+        for (int i = 0; i < 12; ++i) {
+            const Vec3 target = interesting_point(triangles, world.primitives().bounds(), random);
+            Vec3 direction = i % 2 == 0 ? random.direction() : Vec3(0.0);
+            if (i % 2 == 1) direction[i % 3] = 1.0;
+            rays.push_back({target - distance * direction, 0.0, direction, infinity});
+        }
+    }
+    return rays;
 }
 
 // Rays of all kinds, with intervals that begin and end anywhere.

@@ -98,25 +98,9 @@ TEST(TwoLevelGrid, StaysWithinTheMemoryLimitAsFarAsItCan) {
     EXPECT_EQ(TwoLevelGrid(input).levels().coarse.cell_count(), 1u);
 }
 
-TEST(TwoLevelGrid, StopsWhenAsked) {
-    int calls = 0;
-    World world(random_soup(50000, 0.01, 34), 2, [&](double, const char*) { return ++calls == 4; });
-    EXPECT_THROW(TwoLevelGrid(world.input()), Error);
-}
+TEST(TwoLevelGrid, StopsWhenAsked) { expect_stops_when_asked<TwoLevelGrid>(4); }
 
-TEST(TwoLevelGrid, ReportsProgressFromZeroToOne) {
-    std::vector<double> fractions;
-    World world(random_soup(50000, 0.01, 34), 1, [&](double fraction, const char*) {
-        fractions.push_back(fraction);
-        return false;
-    });
-    const TwoLevelGrid grid(world.input());
-    ASSERT_GE(fractions.size(), 4u);
-    for (std::size_t i = 0; i < fractions.size(); ++i) {
-        EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
-        EXPECT_LE(fractions[i], 1.0);
-    }
-}
+TEST(TwoLevelGrid, ReportsProgressFromZeroToOne) { expect_progress_from_zero_to_one<TwoLevelGrid>(); }
 
 } // namespace
 } // namespace raywise

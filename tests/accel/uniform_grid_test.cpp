@@ -250,25 +250,9 @@ TEST(UniformGrid, CountsReferencesInItsStatistics) {
     EXPECT_EQ(statistics.resolution, grid.lattice().resolution);
 }
 
-TEST(UniformGrid, StopsWhenAsked) {
-    int calls = 0;
-    World world(random_soup(50000, 0.01, 34), 2, [&](double, const char*) { return ++calls == 2; });
-    EXPECT_THROW(UniformGrid(world.input()), Error);
-}
+TEST(UniformGrid, StopsWhenAsked) { expect_stops_when_asked<UniformGrid>(2); }
 
-TEST(UniformGrid, ReportsProgressFromZeroToOne) {
-    std::vector<double> fractions;
-    World world(random_soup(50000, 0.01, 34), 1, [&](double fraction, const char*) {
-        fractions.push_back(fraction);
-        return false;
-    });
-    const UniformGrid grid(world.input());
-    ASSERT_GE(fractions.size(), 4u);
-    for (std::size_t i = 0; i < fractions.size(); ++i) {
-        EXPECT_GE(fractions[i], i == 0 ? 0.0 : fractions[i - 1]);
-        EXPECT_LE(fractions[i], 1.0);
-    }
-}
+TEST(UniformGrid, ReportsProgressFromZeroToOne) { expect_progress_from_zero_to_one<UniformGrid>(); }
 
 // ---- the lattice ----
 

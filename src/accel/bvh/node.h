@@ -82,9 +82,7 @@ struct WideBvh {
     double built_cost = 0.0;
 
     std::size_t bytes() const { return nodes.bytes() + blocks.bytes(); }
-    std::size_t bytes_per_triangle() const {
-        return is_float64 ? TriangleBlock<double>::bytes_per_triangle : TriangleBlock<float>::bytes_per_triangle;
-    }
+    std::size_t bytes_per_triangle() const { return block_bytes_per_triangle(is_float64); }
     std::size_t triangle_count() const { return (blocks.size() - triangle_block_padding) / bytes_per_triangle(); }
     // The block that begins with a triangle.
     const std::byte* block(std::size_t triangle) const { return blocks.data() + bytes_per_triangle() * triangle; }

@@ -10,6 +10,7 @@
 
 #include "accel/bvh/stream-inl.h"
 #include "accel/bvh/traverse-inl.h"
+#include "base/dispatch.h"
 #include "ray/traversal_ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,27 +36,7 @@ HWY_INLINE void trace(const WideBvh& bvh, const AnyRay& ray, Collector& collecto
     }
 }
 
-template <class AnyRay>
-HWY_INLINE PrimitiveHit closest(const WideBvh& bvh, const AnyRay& ray, const Query& query) {
-    ClosestCollector collector(ray, query);
-    trace(bvh, ray, collector);
-    return collector.best();
-}
-
-template <class AnyRay>
-HWY_INLINE bool any(const WideBvh& bvh, const AnyRay& ray, const Query& query) {
-    AnyCollector collector(ray, query);
-    trace(bvh, ray, collector);
-    return collector.found();
-}
-
-PrimitiveHit closest_kernel(const WideBvh& bvh, const Ray& ray, const Query& query) { return closest(bvh, ray, query); }
-PrimitiveHit closest_f32_kernel(const WideBvh& bvh, const RayF& ray, const Query& query) {
-    return closest(bvh, ray, query);
-}
-bool any_kernel(const WideBvh& bvh, const Ray& ray, const Query& query) { return any(bvh, ray, query); }
-bool any_f32_kernel(const WideBvh& bvh, const RayF& ray, const Query& query) { return any(bvh, ray, query); }
-void all_kernel(const WideBvh& bvh, const Ray& ray, AllCollector& collector) { trace(bvh, ray, collector); }
+RW_RAY_KERNELS(WideBvh)
 
 // A stream of fewer is not worth what it takes to make it ready.
 constexpr std::size_t smallest_stream = 32;
@@ -104,35 +85,15 @@ void any_many_f32_kernel(const WideBvh& bvh, const RayPacketF& rays, bool* found
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "base/dispatch.h"
-
 namespace raywise {
 
-HWY_EXPORT(closest_kernel);
-HWY_EXPORT(closest_f32_kernel);
-HWY_EXPORT(any_kernel);
-HWY_EXPORT(any_f32_kernel);
-HWY_EXPORT(all_kernel);
+RW_DISPATCH_RAY_KERNELS(WideBvh)
+
 HWY_EXPORT(closest_many_kernel);
 HWY_EXPORT(closest_many_f32_kernel);
 HWY_EXPORT(any_many_kernel);
 HWY_EXPORT(any_many_f32_kernel);
 
-PrimitiveHit trace_closest(const WideBvh& bvh, const Ray& ray, const Query& query) {
-    return RW_DISPATCH(closest_kernel)(bvh, ray, query);
-}
-PrimitiveHit trace_closest(const WideBvh& bvh, const RayF& ray, const Query& query) {
-    return RW_DISPATCH(closest_f32_kernel)(bvh, ray, query);
-}
-bool trace_any(const WideBvh& bvh, const Ray& ray, const Query& query) {
-    return RW_DISPATCH(any_kernel)(bvh, ray, query);
-}
-bool trace_any(const WideBvh& bvh, const RayF& ray, const Query& query) {
-    return RW_DISPATCH(any_f32_kernel)(bvh, ray, query);
-}
-void trace_all(const WideBvh& bvh, const Ray& ray, AllCollector& collector) {
-    HWY_DYNAMIC_DISPATCH(all_kernel)(bvh, ray, collector);
-}
 void trace_closest_many(const WideBvh& bvh, const RayPacket& rays, PrimitiveHit* hits, Scratch& scratch) {
     HWY_DYNAMIC_DISPATCH(closest_many_kernel)(bvh, rays, hits, scratch);
 }

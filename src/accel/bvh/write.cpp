@@ -27,11 +27,8 @@ namespace raywise {
 HWY_EXPORT(write_leaf_kernel);
 
 void make_blocks(WideBvh& bvh, const Primitives& primitives, std::size_t triangles) {
-    const auto& meshes = primitives.meshes();
-    bvh.is_float64 = !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
-    const std::size_t bytes = bvh.bytes_per_triangle() * triangles;
-    bvh.blocks = PageArray<std::byte>(bytes + triangle_block_padding);
-    std::fill_n(bvh.blocks.data() + bytes, triangle_block_padding, std::byte{});
+    bvh.is_float64 = !primitives.is_float32();
+    bvh.blocks = room_for_blocks(bvh.bytes_per_triangle() * triangles);
 }
 
 LeafWriter::LeafWriter(WideBvh& bvh, const Primitives& primitives) : bvh_(bvh), cursor_(primitives) {}

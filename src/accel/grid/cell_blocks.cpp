@@ -61,17 +61,12 @@ HWY_INLINE void write_line(T* line, const T* numbers, std::uint32_t n, bool whol
 template <class T>
 HWY_INLINE bool write_block(const Primitives& primitives, const std::uint32_t* list, std::uint32_t n, bool whole,
                             std::byte* block) {
-    const PrimitiveId first = primitives.locate(list[0]);
-    const TriangleMesh& mesh = *primitives.meshes()[first.geometry];
-    bool is_in_lanes = mesh.arrays().vertices.has_rows() && mesh.is_float32() == std::is_same_v<T, float>;
-    std::uint32_t triangles[triangle_block_size]; // in the mesh
-    for (std::uint32_t i = 0; i < triangle_block_size; ++i) {
-        triangles[i] = list[std::min(i, n - 1)] - (list[0] - first.primitive);
-        is_in_lanes &= triangles[i] < mesh.triangle_count();
-    }
-    if (!is_in_lanes) return false;
+    std::uint32_t ids[triangle_block_size]; // the last one again in the place of those that are not there
+    for (std::uint32_t i = 0; i < triangle_block_size; ++i) ids[i] = list[std::min(i, n - 1)];
+    const ListedTriangles of_mesh(primitives, ids);
+    if (!of_mesh.has_rows || of_mesh.mesh.is_float32() != std::is_same_v<T, float>) return false;
     HWY_ALIGN T lines[9 * corner_block];
-    gather_listed(mesh.arrays(), triangles, lines);
+    gather_listed(of_mesh.mesh.arrays(), of_mesh.triangles, lines);
     T* const target = reinterpret_cast<T*>(block);
     for (std::size_t line = 0; line < 9; ++line) write_line(target + line * n, lines + line * corner_block, n, whole);
     for (std::uint32_t i = 0; i < n; ++i) write_block_id<T>(block, n, i, list[i]);
@@ -128,10 +123,9 @@ HWY_EXPORT(write_blocks_kernel);
 void write_cell_blocks(const Primitives& primitives, const Parallel& parallel, const ProgressPart& progress,
                        GridLists& lists) {
     constexpr std::uint64_t bricks_per_task = 256;
-    lists.blocks_are_float64 = !blocks_fit_float32(primitives);
-    const std::size_t bytes = lists.references.size() * lists.bytes_per_block_triangle();
-    PageArray<std::byte> blocks(bytes + triangle_block_padding);
-    std::fill_n(blocks.data() + bytes, triangle_block_padding, std::byte{});
+    lists.blocks_are_float64 = !primitives.is_float32();
+    PageArray<std::byte> blocks =
+        room_for_blocks(lists.references.size() * block_bytes_per_triangle(lists.blocks_are_float64));
     const std::uint64_t bricks = lists.occupied.size();
     const std::uint64_t tasks = (bricks + bricks_per_task - 1) / bricks_per_task;
     std::atomic<std::uint64_t> done{0};
@@ -147,14 +141,7 @@ void write_cell_blocks(const Primitives& primitives, const Parallel& parallel, c
 
 bool fits_blocks(const BuildInput& input, std::uint64_t bytes, std::uint64_t references) {
     if (input.memory_limit == 0) return true;
-    const std::size_t per_triangle = blocks_fit_float32(input.primitives) ? TriangleBlock<float>::bytes_per_triangle
-                                                                          : TriangleBlock<double>::bytes_per_triangle;
-    return bytes + references * per_triangle <= input.memory_limit;
-}
-
-bool blocks_fit_float32(const Primitives& primitives) {
-    const auto& meshes = primitives.meshes();
-    return std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
+    return bytes + references * block_bytes_per_triangle(!input.primitives.is_float32()) <= input.memory_limit;
 }
 
 } // namespace raywise

@@ -16,7 +16,4 @@ bool fits_blocks(const BuildInput& input, std::uint64_t bytes, std::uint64_t ref
 void write_cell_blocks(const Primitives& primitives, const Parallel& parallel, const ProgressPart& progress,
                        GridLists& lists);
 
-// Whether the meshes' coordinates are all float32, and blocks of that hold them.
-bool blocks_fit_float32(const Primitives& primitives);
-
 } // namespace raywise

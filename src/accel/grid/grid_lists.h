@@ -26,10 +26,6 @@ struct GridLists {
     PageArray<std::uint64_t> occupied;
 
     bool has_blocks() const { return !blocks.empty(); }
-    std::size_t bytes_per_block_triangle() const {
-        return blocks_are_float64 ? TriangleBlock<double>::bytes_per_triangle
-                                  : TriangleBlock<float>::bytes_per_triangle;
-    }
     bool is_wide() const { return !wide_offsets.empty(); }
     std::uint64_t offset(std::uint64_t cell) const { return is_wide() ? wide_offsets[cell] : narrow_offsets[cell]; }
     std::uint32_t count(std::uint64_t cell) const {

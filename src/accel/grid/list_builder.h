@@ -129,7 +129,7 @@ private:
         std::uint32_t begin = 0;
         for (std::uint64_t run = 0; run < runs_; ++run) begin += std::exchange(ends[run], begin);
         for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t in_run = cells[i] & ((1u << run_shift) - 1);
+            const std::uint32_t in_run = cells[i] & cell_mask;
             parted[ends[cells[i] >> run_shift]++] = in_run | primitives[i] << run_shift;
         }
     }

@@ -139,18 +139,6 @@ HWY_INLINE void walk_grid(const TracedGrid& grid, Cells cells, const CellRay& ra
     });
 }
 
-// Where nothing is known of a ray's way.
-template <class Collector>
-void test_all_primitives(const Primitives& primitives, const ExactRay& ray, Collector& collector) {
-    const BlockRay block_ray(ray);
-    for (std::uint32_t first = 0; first < primitives.count();) {
-        std::uint32_t list[triangle_block_size];
-        std::uint32_t n = 0;
-        for (; n < triangle_block_size && first < primitives.count(); ++n) list[n] = first++;
-        if (test_list(primitives, block_ray, list, n, collector)) return;
-    }
-}
-
 template <class Collector>
 HWY_NOINLINE void trace_grid(const TracedGrid& grid, const Ray& caller_ray, Collector& collector) {
     if (grid.lattice.number_count == 0 || !caller_ray.is_traceable()) return;

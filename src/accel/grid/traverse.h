@@ -2,9 +2,9 @@
 #pragma once
 
 #include "accel/accel.h"
-#include "accel/collectors.h"
 #include "accel/grid/cell_lattice.h"
 #include "accel/grid/grid_lists.h"
+#include "accel/ray_kernels.h"
 
 namespace raywise {
 
@@ -15,11 +15,6 @@ struct TracedGrid {
     bool mailboxes;
 };
 
-// As those of Accel.
-PrimitiveHit grid_closest(const TracedGrid& grid, const Ray& ray, const Query& query);
-PrimitiveHit grid_closest(const TracedGrid& grid, const RayF& ray, const Query& query);
-bool grid_any(const TracedGrid& grid, const Ray& ray, const Query& query);
-bool grid_any(const TracedGrid& grid, const RayF& ray, const Query& query);
-void grid_all(const TracedGrid& grid, const Ray& ray, AllCollector& collector);
+RW_DECLARE_RAY_KERNELS(TracedGrid);
 
 } // namespace raywise

@@ -13,9 +13,10 @@
 // walkable_resolution (grid_choice.h) sees to for the scene's R.
 #pragma once
 
-#include "accel/accel.h"
 #include "accel/grid/cell_lattice.h"
+#include "accel/grid/grid_accel.h"
 #include "accel/grid/grid_lists.h"
+#include "accel/ray_kernels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -51,19 +52,25 @@ struct TwoLevels {
     }
 };
 
-class TwoLevelGrid final : public Accel {
+struct TracedLevels {
+    const Primitives& primitives;
+    const TwoLevels& levels;
+};
+
+RW_DECLARE_RAY_KERNELS(TracedLevels);
+
+class TwoLevelGrid final : public GridAccel<TwoLevelGrid> {
 public:
     explicit TwoLevelGrid(const BuildInput& input) : TwoLevelGrid(input, TwoLevelOptions{}) {}
     TwoLevelGrid(const BuildInput& input, const TwoLevelOptions& options);
-
-    PrimitiveHit closest(const Ray& ray, const Query& query) const override;
-    bool any(const Ray& ray, const Query& query) const override;
-    void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override;
 
     std::size_t bytes() const override { return sizeof *this + levels_.bytes(); }
     const TwoLevels& levels() const { return levels_; }
 
 private:
+    friend class GridAccel<TwoLevelGrid>;
+    TracedLevels traced() const { return {primitives_, levels_}; }
+
     const Primitives& primitives_;
     TwoLevels levels_;
 };

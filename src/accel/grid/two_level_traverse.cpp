@@ -34,8 +34,9 @@ HWY_INLINE void walk_levels(const TwoLevels& levels, Cells own, Cells inner, con
 }
 
 template <class Collector>
-HWY_NOINLINE void trace_levels(const Primitives& primitives, const TwoLevels& levels, const Ray& caller_ray,
-                               Collector& collector) {
+HWY_NOINLINE void trace_levels(const TracedLevels& traced, const Ray& caller_ray, Collector& collector) {
+    const Primitives& primitives = traced.primitives;
+    const TwoLevels& levels = traced.levels;
     if (levels.coarse.number_count == 0 || !caller_ray.is_traceable()) return;
     const ExactRay exact_ray(caller_ray);
     const CellRay ray(exact_ray, primitives.bounds(), primitives.largest_extent());
@@ -55,19 +56,12 @@ HWY_NOINLINE void trace_levels(const Primitives& primitives, const TwoLevels& le
     }
 }
 
-PrimitiveHit closest_kernel(const Primitives& primitives, const TwoLevels& levels, const Ray& ray, const Query& query) {
-    ClosestCollector collector(ray, query);
-    trace_levels(primitives, levels, ray, collector);
-    return collector.best();
+template <class AnyRay, class Collector>
+HWY_INLINE void trace(const TracedLevels& traced, const AnyRay& ray, Collector& collector) {
+    trace_levels(traced, widened(ray), collector);
 }
-bool any_kernel(const Primitives& primitives, const TwoLevels& levels, const Ray& ray, const Query& query) {
-    AnyCollector collector(ray, query);
-    trace_levels(primitives, levels, ray, collector);
-    return collector.found();
-}
-void all_kernel(const Primitives& primitives, const TwoLevels& levels, const Ray& ray, AllCollector& collector) {
-    trace_levels(primitives, levels, ray, collector);
-}
+
+RW_RAY_KERNELS(TracedLevels)
 
 } // namespace
 } // namespace raywise::HWY_NAMESPACE
@@ -76,21 +70,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace raywise {
 
-HWY_EXPORT(closest_kernel);
-HWY_EXPORT(any_kernel);
-HWY_EXPORT(all_kernel);
-
-PrimitiveHit TwoLevelGrid::closest(const Ray& ray, const Query& query) const {
-    return RW_DISPATCH(closest_kernel)(primitives_, levels_, ray, query);
-}
-bool TwoLevelGrid::any(const Ray& ray, const Query& query) const {
-    return RW_DISPATCH(any_kernel)(primitives_, levels_, ray, query);
-}
-void TwoLevelGrid::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const {
-    AllCollector collector(ray, query, hits);
-    RW_DISPATCH(all_kernel)(primitives_, levels_, ray, collector);
-    collector.remove_repeats();
-}
+RW_DISPATCH_RAY_KERNELS(TracedLevels)
 
 } // namespace raywise
 #endif

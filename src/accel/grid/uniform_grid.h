@@ -2,36 +2,21 @@
 // the ray (GridAccel in Chuang's lecture "Acceleration"). Why the walk loses no hit: cell_walk.h.
 #pragma once
 
-#include "accel/accel.h"
 #include "accel/grid/cell_lattice.h"
+#include "accel/grid/grid_accel.h"
 #include "accel/grid/grid_lists.h"
 #include "accel/grid/grid_options.h"
 #include "accel/grid/grid_statistics.h"
 #include "accel/grid/traverse.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace raywise {
 
-class UniformGrid final : public Accel {
+class UniformGrid final : public GridAccel<UniformGrid> {
 public:
     explicit UniformGrid(const BuildInput& input) : UniformGrid(input, GridOptions{}) {}
     UniformGrid(const BuildInput& input, const GridOptions& options);
-
-    PrimitiveHit closest(const Ray& ray, const Query& query) const override {
-        return grid_closest(traced(), ray, query);
-    }
-    bool any(const Ray& ray, const Query& query) const override { return grid_any(traced(), ray, query); }
-    PrimitiveHit closest_f32(const RayF& ray, const Query& query) const override {
-        return grid_closest(traced(), ray, query);
-    }
-    bool any_f32(const RayF& ray, const Query& query) const override { return grid_any(traced(), ray, query); }
-    void all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& hits) const override {
-        AllCollector collector(ray, query, hits);
-        grid_all(traced(), ray, collector);
-        collector.remove_repeats();
-    }
 
     std::size_t bytes() const override { return sizeof *this + lists_.bytes(); }
 
@@ -42,6 +27,7 @@ public:
     GridStatistics statistics() const;
 
 private:
+    friend class GridAccel<UniformGrid>;
     TracedGrid traced() const { return {primitives_, lattice_, lists_, mailboxes_}; }
 
     const Primitives& primitives_;

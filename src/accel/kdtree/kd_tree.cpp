@@ -4,11 +4,6 @@
 #include "accel/kdtree/traverse.h"
 #include "accel/primitive_test.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numeric>
-
 namespace raywise {
 namespace {
 
@@ -54,15 +49,7 @@ void KdTree::all(const Ray& ray, const Query& query, std::vector<PrimitiveHit>& 
 
 template <class Collector>
 void KdTree::test_all(const Ray& ray, Collector& collector) const {
-    if (!ray.is_traceable()) return;
-    const ExactRay exact(ray);
-    std::array<std::uint32_t, 256> list;
-    for (std::uint32_t first = 0; first < primitives_.count();) {
-        const std::uint32_t n = std::min(static_cast<std::uint32_t>(list.size()), primitives_.count() - first);
-        std::iota(list.begin(), list.begin() + n, first);
-        if (test_primitives(primitives_, exact, list.data(), n, collector)) return;
-        first += n;
-    }
+    if (ray.is_traceable()) test_all_primitives(primitives_, ExactRay(ray), collector);
 }
 
 } // namespace raywise

@@ -151,16 +151,6 @@ void write_leaves(const KdTreeData& tree, const std::vector<PlacedLeaf>& leaves,
 
 } // namespace
 
-bool has_float64_blocks(const Primitives& primitives) {
-    const auto& meshes = primitives.meshes();
-    return !std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh->is_float32(); });
-}
-
-std::size_t block_bytes_per_triangle(const Primitives& primitives) {
-    return has_float64_blocks(primitives) ? TriangleBlock<double>::bytes_per_triangle
-                                          : TriangleBlock<float>::bytes_per_triangle;
-}
-
 KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double progress_begin) {
     KdTreelets result;
     result.frame = tree.frame;
@@ -170,9 +160,9 @@ KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double
     const Box relative = tree.frame.relative(input.primitives.bounds());
     result.bounds = round_outwards({relative.lower * tree.frame.scale(), relative.upper * tree.frame.scale()});
     result.hit_error = round_up(0x1p-27 * input.primitives.largest_extent() * tree.frame.scale());
-    result.is_float64 = has_float64_blocks(input.primitives);
+    result.is_float64 = !input.primitives.is_float32();
 
-    TreeletMaker maker(tree, result.bounds, block_bytes_per_triangle(input.primitives));
+    TreeletMaker maker(tree, result.bounds, block_bytes_per_triangle(result.is_float64));
     maker.make();
     if (maker.leaf_bytes > KdLink::most_leaf_bytes) {
         result.too_large = true;
@@ -181,8 +171,7 @@ KdTreelets make_treelets(const KdTreeData& tree, const BuildInput& input, double
     result.treelets = PageArray<KdTreelet>(maker.treelets.size());
     std::copy(maker.treelets.begin(), maker.treelets.end(), result.treelets.begin());
     maker.treelets = {};
-    result.leaves = PageArray<std::byte>(maker.leaf_bytes + triangle_block_padding);
-    std::fill_n(result.leaves.data() + maker.leaf_bytes, triangle_block_padding, std::byte{});
+    result.leaves = room_for_blocks(maker.leaf_bytes);
     if (result.is_float64) {
         write_leaves<double>(tree, maker.leaves, input, progress_begin, result.leaves.data());
     } else {

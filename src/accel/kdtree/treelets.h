@@ -68,10 +68,6 @@ struct KdLeafHead {
 };
 static_assert(sizeof(KdLeafHead) == KdLink::leaf_alignment);
 
-// Of leaves.
-bool has_float64_blocks(const Primitives& primitives);
-std::size_t block_bytes_per_triangle(const Primitives& primitives);
-
 struct KdTreelets {
     SceneFrame frame;
     BoxF bounds;                   // of what is in it, in the frame, rounded outwards

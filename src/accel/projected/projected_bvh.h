@@ -161,7 +161,7 @@ private:
     template <class Collector>
     void traverse_tree(const ExactRay& ray, Collector& collector) const {
         const CellRay cell_ray(ray, primitives().bounds(), primitives().largest_extent());
-        if (!cell_ray.is_known()) return test_all_primitives(ray, collector);
+        if (!cell_ray.is_known()) return test_all_primitives(primitives(), ray, collector);
         traverse_boxes(tree_, cell_ray, [&](const BvhNode& leaf, double& last) {
             const double limit = collector.limit();
             if (test_leaf(leaf.first, leaf.count, ray, collector)) return true;

@@ -45,15 +45,26 @@ double sibling_overlap(const BvhTree& tree) {
     return whole > 0.0 ? shared / whole : 0.0;
 }
 
-BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame, const Report& report) {
-    BuildReferences references = gather_references(input, frame, report);
+// Where a scene is, for its builders.
+struct Place {
+    SceneFrame frame;
+    Box most; // around most primitives
+};
+
+Place place_of(const Primitives& primitives) {
+    const DenseRegion dense = dense_region(primitives);
+    return {scene_frame(primitives, dense), dense.most};
+}
+
+BvhTree build_fast(const BuildInput& input, const TreeCosts& costs, const Place& place, const Report& report) {
+    BuildReferences references = gather_references(input, place.frame, place.most, report);
     const Bounds bounds = references.bounds;
     const std::uint32_t count = references.count;
     auto order = morton_order(references.items.data(), std::move(references.keys), count, input.parallel);
     Clusters clusters(std::move(references.items), std::move(order), count);
     clusters.build(bounds, input.parallel, report);
     BvhTree tree;
-    tree.frame = frame;
+    tree.frame = place.frame;
     tree.references.resize(count);
     build_top_down(clusters, bounds, costs, input.parallel, report, tree);
     return tree;
@@ -64,19 +75,20 @@ struct TreeAndCost {
     double cost;
 };
 
-TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame,
+TreeAndCost build_from_above(double budget, const BuildInput& input, const TreeCosts& costs, const Place& place,
                              const Report& report) {
     TreeAndCost result;
-    result.tree.frame = frame;
-    build_with_spatial_splits(gather_references(input, frame, report), budget, input, costs, report, result.tree);
+    result.tree.frame = place.frame;
+    build_with_spatial_splits(gather_references(input, place.frame, place.most, report), budget, input, costs, report,
+                              result.tree);
     result.cost = optimise_by_reinsertion(result.tree, costs, input.parallel, report);
     return result;
 }
 
-BvhTree build_high(const BuildInput& input, const TreeCosts& costs, const SceneFrame& frame, const Report& report) {
-    TreeAndCost whole = build_from_above(0.0, input, costs, frame, report);
+BvhTree build_high(const BuildInput& input, const TreeCosts& costs, const Place& place, const Report& report) {
+    TreeAndCost whole = build_from_above(0.0, input, costs, place, report);
     if (sibling_overlap(whole.tree) < overlap_to_cut) return std::move(whole.tree);
-    TreeAndCost cut = build_from_above(split_budget, input, costs, frame, report);
+    TreeAndCost cut = build_from_above(split_budget, input, costs, place, report);
     const bool pays = cut.cost < (1.0 - least_gain_by_cutting) * whole.cost;
     return std::move(pays ? cut.tree : whole.tree);
 }
@@ -95,8 +107,8 @@ BvhTree build_bvh(const BuildInput& input, double progress_end, const BvhBuildOp
         input.progress.report(progress_end * std::min(1.0, work / whole), "bvh");
     };
     const TreeCosts costs(input, options);
-    const SceneFrame frame = scene_frame(input.primitives);
-    return is_high ? build_high(input, costs, frame, report) : build_fast(input, costs, frame, report);
+    const Place place = place_of(input.primitives);
+    return is_high ? build_high(input, costs, place, report) : build_fast(input, costs, place, report);
 }
 
 } // namespace raywise

@@ -1,15 +1,9 @@
 #include "accel/bvh/build/references.h"
 
-#include "accel/dense_region.h"
-#include "geometry/mesh_cursor.h"
-
-#include <algorithm>
-#include <vector>
+#include "accel/hittable_triangles.h"
 
 namespace raywise {
 namespace {
-
-constexpr std::uint64_t chunk_size = 16384; // primitives between two reports
 
 BuildItem make_item(const Corners& c, const Vec3& center) {
     const Box exact{glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))};
@@ -33,45 +27,26 @@ BuildItem make_item(const CornersF& c) {
 
 } // namespace
 
-BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame,
+BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame, const Box& most,
                                   const std::function<void(std::uint64_t)>& report) {
     const Primitives& primitives = input.primitives;
     const Vec3 center = frame.center();
-    PageVector<std::uint32_t> hittable; // empty when all are
-    if (primitives.hittable_count() != primitives.count()) {
-        hittable.reserve(primitives.hittable_count());
-        for (std::uint32_t i = 0; i < primitives.count(); ++i) {
-            if (primitives.is_hittable(i)) hittable.push_back(i);
-        }
-    }
     BuildReferences references;
     references.count = static_cast<std::uint32_t>(primitives.hittable_count());
     references.items = PageArray<BuildItem>(references.count);
     references.keys = PageArray<MortonKey>(references.count);
-    const BoxF box = round_outwards(SceneFrame::relative(primitives.bounds(), center));
-    references.bounds = bounds_of(box);
-    const Box most = dense_region(primitives).most;
+    references.bounds = bounds_of(round_outwards(SceneFrame::relative(primitives.bounds(), center)));
     const MortonGrid grid(bounds_of(BoxF{Vec3f(most.lower - center), Vec3f(most.upper - center)}));
     const bool exact = center == Vec3(0.0);
-    const std::uint64_t chunks = (references.count + chunk_size - 1) / chunk_size;
-    input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
-        const std::uint64_t begin = chunk * chunk_size;
-        const std::uint64_t end = std::min<std::uint64_t>(references.count, begin + chunk_size);
-        MeshCursor cursor(primitives);
-        for (std::uint64_t i = begin; i < end; ++i) {
-            const std::uint32_t primitive = hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i];
-            cursor.move_to(primitive);
-            const TriangleMesh& mesh = cursor.mesh();
-            const std::uint32_t triangle = cursor.triangle(primitive);
-            BuildItem item = exact && mesh.is_float32() ? make_item(mesh.corners_float32(triangle))
-                                                        : make_item(mesh.corners(triangle), center);
-            item.id = primitive;
-            item.count = 1;
-            references.items[i] = item;
-            references.keys[i] = {grid.code(Bounds::of(item).centroid()), static_cast<std::uint32_t>(i)};
-        }
-        report(end - begin);
-    });
+    for_each_hittable(input, report,
+                      [&](std::uint64_t i, std::uint32_t primitive, const TriangleMesh& mesh, std::uint32_t triangle) {
+                          BuildItem item = exact && mesh.is_float32() ? make_item(mesh.corners_float32(triangle))
+                                                                      : make_item(mesh.corners(triangle), center);
+                          item.id = primitive;
+                          item.count = 1;
+                          references.items[i] = item;
+                          references.keys[i] = {grid.code(Bounds::of(item).centroid()), static_cast<std::uint32_t>(i)};
+                      });
     return references;
 }
 

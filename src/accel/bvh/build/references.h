@@ -19,8 +19,9 @@ struct BuildReferences {
     Bounds bounds = Bounds::none();
 };
 
-// Boxes are relative to the frame's center, not scaled. report: called with numbers of primitives that are done.
-BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame,
+// Boxes are relative to the frame's center, not scaled. most: a box around most primitives (accel/dense_region.h). report: called with numbers of
+// primitives that are done.
+BuildReferences gather_references(const BuildInput& input, const SceneFrame& frame, const Box& most,
                                   const std::function<void(std::uint64_t)>& report);
 
 } // namespace raywise

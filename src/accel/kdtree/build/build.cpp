@@ -50,7 +50,8 @@ std::uint64_t most_references(const BuildInput& input, const KdTreeOptions& opti
     const std::uint64_t most = primitives * options.most_references_per_primitive + 64;
     if (input.memory_limit == 0) return most;
     constexpr std::uint64_t bytes_around = 24; // of treelets and heads of leaves, for each reference
-    const std::uint64_t affordable = input.memory_limit / (block_bytes_per_triangle(input.primitives) + bytes_around);
+    const std::uint64_t affordable =
+        input.memory_limit / (block_bytes_per_triangle(!input.primitives.is_float32()) + bytes_around);
     return std::clamp(affordable, primitives, most);
 }
 

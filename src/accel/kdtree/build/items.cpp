@@ -1,15 +1,12 @@
 #include "accel/kdtree/build/items.h"
 
+#include "accel/hittable_triangles.h"
 #include "accel/kdtree/build/clip.h"
-#include "geometry/mesh_cursor.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace raywise {
 namespace {
-
-constexpr std::uint64_t chunk_size = 16384; // primitives between two reports
 
 BuildItem item_of(const CornersF& c, float scale) {
     const Lanes factor = fill_lanes(scale);
@@ -24,40 +21,18 @@ BuildItem item_of(const Corners& c, const SceneFrame& frame) {
     return rounded_bounds({relative.lower * frame.scale(), relative.upper * frame.scale()}).item(0, 1);
 }
 
-std::vector<std::uint32_t> hittable_primitives(const Primitives& primitives) {
-    std::vector<std::uint32_t> list;
-    list.reserve(primitives.hittable_count());
-    for (std::uint32_t i = 0; i < primitives.count(); ++i) {
-        if (primitives.is_hittable(i)) list.push_back(i);
-    }
-    return list;
-}
-
 } // namespace
 
 std::vector<BuildItem> gather_kd_items(const BuildInput& input, const SceneFrame& frame,
                                        const std::function<void(std::uint64_t)>& report) {
-    const Primitives& primitives = input.primitives;
-    std::vector<std::uint32_t> hittable; // empty when all are
-    if (primitives.hittable_count() != primitives.count()) hittable = hittable_primitives(primitives);
-    std::vector<BuildItem> items(primitives.hittable_count());
-    const std::uint64_t chunks = (items.size() + chunk_size - 1) / chunk_size;
-    input.parallel.for_each(chunks, [&](std::uint64_t chunk) {
-        const std::uint64_t begin = chunk * chunk_size;
-        const std::uint64_t end = std::min<std::uint64_t>(items.size(), begin + chunk_size);
-        MeshCursor cursor(primitives);
-        for (std::uint64_t i = begin; i < end; ++i) {
-            const std::uint32_t primitive = hittable.empty() ? static_cast<std::uint32_t>(i) : hittable[i];
-            cursor.move_to(primitive);
-            const TriangleMesh& mesh = cursor.mesh();
-            const std::uint32_t triangle = cursor.triangle(primitive);
-            items[i] = frame.float_scale() != 0.0f && mesh.is_float32()
-                           ? item_of(mesh.corners_float32(triangle), frame.float_scale())
-                           : item_of(mesh.corners(triangle), frame);
-            items[i].id = primitive;
-        }
-        report(end - begin);
-    });
+    std::vector<BuildItem> items(input.primitives.hittable_count());
+    for_each_hittable(input, report,
+                      [&](std::uint64_t i, std::uint32_t primitive, const TriangleMesh& mesh, std::uint32_t triangle) {
+                          items[i] = frame.float_scale() != 0.0f && mesh.is_float32()
+                                         ? item_of(mesh.corners_float32(triangle), frame.float_scale())
+                                         : item_of(mesh.corners(triangle), frame);
+                          items[i].id = primitive;
+                      });
     return items;
 }
 
