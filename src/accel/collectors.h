@@ -96,19 +96,16 @@ template <class Collector>
 class Collectors {
 public:
     template <class AnyRay>
-    Collectors(const PacketOf<AnyRay>& rays, Scratch& scratch)
-        : queries_(scratch.take<Query>(rays.count)), collectors_(scratch.take<Collector>(rays.count)) {
-        for (std::size_t i = 0; i < rays.count; ++i) {
-            new (queries_ + i) Query(rays.query(i));
-            new (collectors_ + i) Collector(rays.rays[i], queries_[i]);
-        }
+    Collectors(const PacketOf<AnyRay>& rays, Scratch& scratch) : collectors_(scratch.take<Collector>(rays.count)) {
+        static constexpr Query none{};
+        for (std::size_t i = 0; i < rays.count; ++i)
+            new (collectors_ + i) Collector(rays.rays[i], rays.queries != nullptr ? rays.queries[i] : none);
     }
 
     Collector* data() const { return collectors_; }
     const Collector& operator[](std::size_t i) const { return collectors_[i]; }
 
 private:
-    Query* const queries_;
     Collector* const collectors_;
 };
 

@@ -10,14 +10,11 @@ namespace {
 // value_of(k) to one component of elements[k], for each k. The caller's arrays need not be aligned.
 template <class Value, class ValueOf>
 void store(const OutputArray& array, int component, const Elements& elements, const ValueOf& value_of) {
-    // Bytes written might be those of the arguments, as far as the compiler knows.
-    const Elements to = elements;
-    const std::ptrdiff_t stride = array.stride;
     std::byte* const data = array.data + component * array.component_stride;
-    for (std::size_t k = 0; k < to.count(); ++k) {
+    elements.for_each_offset(array.stride, [&](std::size_t k, std::ptrdiff_t offset) {
         const auto value = static_cast<Value>(value_of(k));
-        std::memcpy(data + static_cast<std::ptrdiff_t>(to[k]) * stride, &value, sizeof value);
-    }
+        std::memcpy(data + offset, &value, sizeof value);
+    });
 }
 
 template <class ValueOf>
@@ -71,9 +68,10 @@ void OutputArray::write(const Elements& elements, const bool* flags) const {
 }
 
 void OutputArray::prefetch(const Elements& elements) const {
-    if (!wanted()) return;
-    for (std::size_t k = 0; k < elements.count(); ++k)
-        __builtin_prefetch(data + static_cast<std::ptrdiff_t>(elements[k]) * stride, 1);
+    if (!wanted() || !elements.are_scattered()) return; // those that follow each other the processor sees coming
+    std::byte* const memory = data;
+    elements.for_each_offset(stride,
+                             [=](std::size_t, std::ptrdiff_t offset) { __builtin_prefetch(memory + offset, 1); });
 }
 
 void HitArrays::write(const Elements& elements, const PrimitiveHit* hits, const Primitives& primitives) const {

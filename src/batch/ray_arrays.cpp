@@ -29,16 +29,13 @@ void read_vectors(const StridedArray& array, const Elements& elements, glm::vec<
                   CallerRay<To>* rays) {
     for_kind<To>(array.scalar, [&](auto number) {
         using Number = decltype(number);
-        // Bytes written might be those of the arguments, as far as the compiler knows.
-        const Elements from = elements;
         const std::byte* const data = array.data;
-        const std::ptrdiff_t stride = array.stride;
         const std::ptrdiff_t step = array.component_stride;
-        for (std::size_t k = 0; k < from.count(); ++k) {
-            const std::byte* const address = data + static_cast<std::ptrdiff_t>(from[k]) * stride;
+        elements.for_each_offset(array.stride, [=](std::size_t k, std::ptrdiff_t offset) {
+            const std::byte* const address = data + offset;
             rays[k].*member = {load<To, Number>(address), load<To, Number>(address + step),
                                load<To, Number>(address + 2 * step)};
-        }
+        });
     });
 }
 
@@ -51,11 +48,10 @@ void read_numbers(const StridedArray& array, const Elements& elements, To absent
     }
     for_kind<To>(array.scalar, [&](auto number) {
         using Number = decltype(number);
-        const Elements from = elements;
         const std::byte* const data = array.data;
-        const std::ptrdiff_t stride = array.stride;
-        for (std::size_t k = 0; k < from.count(); ++k)
-            rays[k].*member = load<To, Number>(data + static_cast<std::ptrdiff_t>(from[k]) * stride);
+        elements.for_each_offset(array.stride, [=](std::size_t k, std::ptrdiff_t offset) {
+            rays[k].*member = load<To, Number>(data + offset);
+        });
     });
 }
 

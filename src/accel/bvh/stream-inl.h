@@ -179,7 +179,7 @@ private:
                 }
                 const auto enters = hn::And(may_meet(d, entry, exit), present_rays);
                 std::uint32_t* const list = lists_ + i * list_capacity_ + counts[i];
-                // Not CompressStore: where nothing is stored to a page that has not been written to, processors take a microsecond over it.
+                // Not CompressStore, which some processors take a hundred nanoseconds over: docs/decisions/0025.
                 hn::StoreU(hn::Compress(numbers, hn::RebindMask(du, enters)), du, list);
                 counts[i] += static_cast<std::uint32_t>(hn::CountTrue(d, enters));
             }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::Mutex;
 
 use common::{bits, columns, icosphere, scene_with, scenes, square, Numbers, Result};
-use raywise::{Error, Hit, Hits, HitsMut, QueryOptions, Ray, RayOptions, Rays, Status};
+use raywise::{Error, Hit, Hits, HitsMut, QueryOptions, Ray, RayOptions, Rays, Status, Workspace};
 
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
@@ -302,6 +302,30 @@ fn the_normal_of_a_triangle_that_is_not_there_is_an_error() -> Result {
     let (_, scene) = scenes(&icosphere(1))?.remove(0);
     let hit = Hit { t: 1.0, u: 0.0, v: 0.0, instance: None, geometry: 0, primitive: 99_999 };
     assert_eq!(scene.normal(&hit).unwrap_err().status(), Some(Status::INDEX_OUT_OF_RANGE));
+    Ok(())
+}
+
+#[test]
+fn a_workspace_serves_batches_of_any_scene_one_at_a_time() -> Result {
+    let mut numbers = Numbers::new(33);
+    let rays: Vec<Ray> = (0..5000).map(|_| numbers.ray()).collect();
+    let (origins, directions) = columns(&rays);
+    let batch = Rays::new(&origins, &directions)?;
+    let workspace = Workspace::new()?;
+    let kept = QueryOptions::new().workspace(&workspace);
+    for (structure, scene) in scenes(&icosphere(3))? {
+        assert_eq!(scene.intersect_batch_with(&batch, &kept)?, scene.intersect_batch(&batch)?, "{structure}");
+        let refused = Mutex::new(0);
+        let meanwhile = |_: f64, _: &str| {
+            let error = scene.occluded_batch_with(&batch, &kept).unwrap_err();
+            assert_eq!(error.status(), Some(Status::IN_USE), "{structure}");
+            *refused.lock().unwrap() += 1;
+            ControlFlow::Continue(())
+        };
+        scene.intersect_batch_with(&batch, &kept.progress(&meanwhile))?;
+        assert!(*refused.lock().unwrap() >= 2, "{structure}: at the beginning and at the end");
+        assert_eq!(scene.occluded_batch_with(&batch, &kept)?, scene.occluded_batch(&batch)?, "{structure}");
+    }
     Ok(())
 }
 
