@@ -18,7 +18,10 @@ struct MajorAxis {
     explicit MajorAxis(const Vec3& direction) {
         const Vec3 magnitude_of = magnitudes(direction);
         const double larger_of_xy = larger(magnitude_of.x, magnitude_of.y);
-        axis = magnitude_of.z > larger_of_xy ? 2 : static_cast<int>(magnitude_of.y > magnitude_of.x);
+        // By arithmetic: no branch could be foreseen.
+        const auto is_z = static_cast<unsigned>(magnitude_of.z > larger_of_xy);
+        const auto is_y = static_cast<unsigned>(magnitude_of.y > magnitude_of.x);
+        axis = static_cast<int>(2 * is_z | (is_y & ~is_z));
         magnitude = larger(larger_of_xy, magnitude_of.z);
     }
 };
@@ -34,16 +37,20 @@ struct ExactRay {
     ExactRay(const Ray& ray, double length) : origin(ray.origin), tmin(ray.tmin), tmax(ray.tmax) {
         const MajorAxis major(ray.direction);
         major_axis = major.axis;
-        x_axis = major_axis == 2 ? 0 : major_axis + 1;
-        y_axis = x_axis == 2 ? 0 : x_axis + 1;
+        // The next axis and the one after it, from a word with two bits for each.
+        x_axis = 0b00'10'01 >> 2 * major_axis & 3;
+        y_axis = 0b01'00'10 >> 2 * major_axis & 3;
         scale = length != 0.0 ? DirectionScale::of_length(length) : DirectionScale(major.magnitude);
         if (scale.is_normal()) {
             direction = ray.direction * scale.inverse_length();
         } else {
             for (int axis = 0; axis < 3; ++axis) direction[axis] = scale.to_caller(ray.direction[axis]);
         }
-        for (int axis = 0; axis < 3; ++axis) {
-            if (std::fabs(direction[axis]) < smallest_direction) direction[axis] = std::copysign(0.0, direction[axis]);
+        const Vec3 magnitude = magnitudes(direction);
+        if (smaller(magnitude.x, smaller(magnitude.y, magnitude.z)) < smallest_direction) {
+            for (int axis = 0; axis < 3; ++axis) {
+                if (magnitude[axis] < smallest_direction) direction[axis] = std::copysign(0.0, direction[axis]);
+            }
         }
         inverse_major = 1.0 / at(direction, major_axis);
         shear_x = at(direction, x_axis) * inverse_major;
