@@ -23,17 +23,20 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <new>
+#include <optional>
 
 HWY_BEFORE_NAMESPACE();
 namespace raywise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Many rays set up for traversal.
+// Many rays set up for traversal, and for the triangles of leaves, once they have met one: rays come to many leaves, one at a time.
 template <class AnyRay>
 struct StreamRays {
     const AnyRay* rays;
     TraversalRay* traversal;
     RayTime* times;
+    std::optional<ExactRay>* exact;
 };
 
 // Rays that all run in one octant, through one tree.
@@ -99,8 +102,8 @@ private:
         for (std::size_t k = 0; k < deferred_count_; ++k) {
             const auto [i, reference] = deferred_[k];
             if (is_done(collectors_[i])) continue;
-            TracedRay<T, AnyRay, Collector> traced{bvh_, rays_.rays[i], rays_.traversal[i], rays_.times[i],
-                                                   collectors_[i]};
+            TracedRay<T, AnyRay, Collector> traced{bvh_,           rays_.rays[i],  rays_.traversal[i],
+                                                   rays_.times[i], collectors_[i], rays_.exact[i]};
             const bool done = reference.is_leaf() ? traced.test_leaf(reference) : traverse(traced, reference);
             if (done) rays_.traversal[i].last = -std::numeric_limits<float>::max(); // it enters no box any more
         }
@@ -226,12 +229,14 @@ HWY_INLINE void trace_streams(const WideBvh& bvh, const PacketOf<AnyRay>& packet
                               Scratch& scratch) {
     constexpr std::size_t octants = 8;
     const std::size_t count = packet.count;
-    const StreamRays<AnyRay> rays{packet.rays, scratch.take<TraversalRay>(count), scratch.take<RayTime>(count)};
+    const StreamRays<AnyRay> rays{packet.rays, scratch.take<TraversalRay>(count), scratch.take<RayTime>(count),
+                                  scratch.take<std::optional<ExactRay>>(count)};
     std::uint32_t* indices[octants];
     std::uint32_t counts[octants] = {};
     for (std::uint32_t*& list : indices) list = scratch.take<std::uint32_t>(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         if (set_up_ray(rays.rays[i], bvh.frame, rays.traversal[i], rays.times[i]) != RaySetup::ready) continue;
+        new (rays.exact + i) std::optional<ExactRay>();
         const std::size_t octant = rays.traversal[i].octant;
         indices[octant][counts[octant]++] = i;
     }

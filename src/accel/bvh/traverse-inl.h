@@ -98,7 +98,7 @@ HWY_INLINE void prefetch(const WideBvh& bvh, NodeRef reference) {
     for (std::size_t line = 0; line < bytes; line += 64) __builtin_prefetch(target + line);
 }
 
-// A ray on its way through a tree: what culls, and what decides, which is made when the first leaf is met. T: of the tree's triangles.
+// A ray on its way through a tree: what culls, and what decides, which is empty until the first leaf is met. T: of the tree's triangles.
 template <class T, class AnyRay, class Collector>
 struct TracedRay {
     using Coordinate = T;
@@ -108,7 +108,7 @@ struct TracedRay {
     TraversalRay& traversal;
     const RayTime& time;
     Collector& collector;
-    std::optional<ExactRay> exact{};
+    std::optional<ExactRay>& exact;
 
     // Hands the hits with a leaf's triangles to the collector. Returns whether it wants no more. A function of its own, so that what a ray
     // needs for triangles does not take registers from what it needs for boxes.

@@ -22,7 +22,8 @@ HWY_INLINE void trace_as(const WideBvh& bvh, const AnyRay& ray, Collector& colle
     TraversalRay traversal;
     RayTime time;
     if (HWY_UNLIKELY(set_up_ray(ray, bvh.frame, traversal, time) != RaySetup::ready)) return;
-    TracedRay<T, AnyRay, Collector> traced{bvh, ray, traversal, time, collector};
+    std::optional<ExactRay> exact;
+    TracedRay<T, AnyRay, Collector> traced{bvh, ray, traversal, time, collector, exact};
     traverse(traced, NodeRef::node(0));
 }
 
