@@ -101,6 +101,16 @@ public:
         return {glm::min(c[0], glm::min(c[1], c[2])), glm::max(c[0], glm::max(c[1], c[2]))};
     }
 
+    // Asks the caches for what corners() reads: its indices, and the vertices that they name, once they are there.
+    [[gnu::always_inline]] void prefetch_indices(std::uint32_t primitive) const {
+        const PrimitiveId id = locate(primitive);
+        meshes_[id.geometry]->prefetch_indices(id.primitive);
+    }
+    [[gnu::always_inline]] void prefetch_vertices(std::uint32_t primitive) const {
+        const PrimitiveId id = locate(primitive);
+        meshes_[id.geometry]->prefetch_vertices(id.primitive);
+    }
+
     PrimitiveId locate(std::uint32_t primitive) const {
         if (first_.size() == 1) return {0, primitive};
         const auto next = std::upper_bound(first_.begin(), first_.end(), primitive);

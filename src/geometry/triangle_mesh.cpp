@@ -68,7 +68,7 @@ PageArray<std::byte> packed(const StridedArray& array, std::uint64_t count) {
 } // namespace
 
 double StridedArray::number(std::uint64_t element, int component) const {
-    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    const std::byte* address = place(element) + component * component_stride;
     return scalar == Scalar::float32 ? static_cast<double>(load<float>(address)) : load<double>(address);
 }
 

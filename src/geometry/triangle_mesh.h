@@ -34,6 +34,7 @@ struct StridedArray {
     std::ptrdiff_t component_stride = 0;
     Scalar scalar = Scalar::float32;
 
+    const std::byte* place(std::uint64_t element) const { return data + static_cast<std::ptrdiff_t>(element) * stride; }
     double number(std::uint64_t element, int component = 0) const;       // float32 or float64
     std::uint64_t index(std::uint64_t element, int component = 0) const; // uint32 or uint64
     Vec3 vec3(std::uint64_t element) const;                              // float32 or float64
@@ -45,7 +46,7 @@ struct StridedArray {
 
 // Written for speed, and inline: every triangle test begins here. memcpy, because the caller's arrays need not be aligned.
 inline std::uint64_t StridedArray::index(std::uint64_t element, int component) const {
-    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride + component * component_stride;
+    const std::byte* address = place(element) + component * component_stride;
     if (scalar == Scalar::uint32) {
         std::uint32_t index;
         std::memcpy(&index, address, sizeof index);
@@ -57,7 +58,7 @@ inline std::uint64_t StridedArray::index(std::uint64_t element, int component) c
 }
 
 inline Vec3f StridedArray::vec3f(std::uint64_t element) const {
-    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
+    const std::byte* address = place(element);
     float x, y, z;
     std::memcpy(&x, address, sizeof x);
     std::memcpy(&y, address + component_stride, sizeof y);
@@ -67,7 +68,7 @@ inline Vec3f StridedArray::vec3f(std::uint64_t element) const {
 
 inline Vec3 StridedArray::vec3(std::uint64_t element) const {
     if (scalar == Scalar::float32) return Vec3(vec3f(element));
-    const std::byte* address = data + static_cast<std::ptrdiff_t>(element) * stride;
+    const std::byte* address = place(element);
     double x, y, z;
     std::memcpy(&x, address, sizeof x);
     std::memcpy(&y, address + component_stride, sizeof y);
@@ -108,6 +109,17 @@ public:
     CornersF corners_float32(std::uint32_t triangle) const {
         const std::array<std::uint64_t, 3> v = vertices_of(triangle);
         return {arrays_.vertices.vec3f(v[0]), arrays_.vertices.vec3f(v[1]), arrays_.vertices.vec3f(v[2])};
+    }
+
+    // Asks the caches for what corners() reads of a triangle, valid or not: its indices, and the vertices that they name, once they are there.
+    // Inline by force: a call to a function that does nothing but that is one that GCC takes away.
+    [[gnu::always_inline]] void prefetch_indices(std::uint32_t triangle) const {
+        if (arrays_.indices.data != nullptr) __builtin_prefetch(arrays_.indices.place(triangle));
+    }
+    [[gnu::always_inline]] void prefetch_vertices(std::uint32_t triangle) const {
+        for (const std::uint64_t vertex : vertices_of(triangle)) {
+            if (vertex < arrays_.vertex_count) __builtin_prefetch(arrays_.vertices.place(vertex));
+        }
     }
 
     // Where the corners are, for those who read many.

@@ -6,22 +6,29 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory_resource>
 #include <vector>
 
 namespace raywise {
 namespace {
 
-// One out of each of `sampled` equal parts of all, at no regular distance: meshes repeat themselves.
-std::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32_t sampled) {
+// One out of each of `sampled` equal parts of all, at no regular distance: meshes repeat themselves. Those that can be hit.
+std::pmr::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32_t sampled,
+                                       std::pmr::memory_resource& memory) {
     const std::uint32_t count = primitives.count();
-    std::vector<std::uint32_t> chosen;
+    std::pmr::vector<std::uint32_t> chosen(&memory);
     chosen.reserve(sampled);
     for (std::uint64_t i = 0; i < sampled; ++i) {
         const std::uint64_t begin = i * count / sampled;
         const std::uint64_t size = (i + 1) * count / sampled - begin;
-        const auto primitive = static_cast<std::uint32_t>(begin + split_mix(i + 1) % size);
-        if (primitives.is_hittable(primitive)) chosen.push_back(primitive);
+        chosen.push_back(static_cast<std::uint32_t>(begin + split_mix(i + 1) % size));
     }
+    // They are far from each other, and the caches hold little of a mesh that has just been made or loaded: all are asked for at once.
+    for (const std::uint32_t primitive : chosen) primitives.prefetch_indices(primitive);
+    for (const std::uint32_t primitive : chosen) primitives.prefetch_vertices(primitive);
+    chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                                [&](std::uint32_t primitive) { return !primitives.is_hittable(primitive); }),
+                 chosen.end());
     return chosen;
 }
 
@@ -74,7 +81,7 @@ struct Cells {
 };
 
 // The pairs of equal numbers.
-double equal_pairs(std::vector<std::uint64_t>& numbers) {
+double equal_pairs(std::pmr::vector<std::uint64_t>& numbers) {
     std::sort(numbers.begin(), numbers.end());
     double pairs = 0.0;
     for (std::size_t begin = 0; begin < numbers.size();) {
@@ -89,8 +96,11 @@ double equal_pairs(std::vector<std::uint64_t>& numbers) {
 } // namespace
 
 SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
-    const std::vector<std::uint32_t> chosen =
-        sampled == 0 ? std::vector<std::uint32_t>() : sample(primitives, std::min(sampled, primitives.count()));
+    // On the stack, for as many triangles as are looked at before a choice: a heap that many small pieces were given back to may take
+    // milliseconds to put them together, at the next request for more than small pieces (malloc_consolidate of glibc).
+    std::array<std::byte, 32768> stack;
+    std::pmr::monotonic_buffer_resource memory(stack.data(), stack.size());
+    const std::pmr::vector<std::uint32_t> chosen = sample(primitives, std::min(sampled, primitives.count()), memory);
     if (chosen.empty()) return typical_features(primitives.hittable_count());
 
     const double triangles = static_cast<double>(primitives.hittable_count());
@@ -100,7 +110,7 @@ SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
     SceneFeatures features;
     features.triangles = triangles;
     features.cells = cells.along_line();
-    std::vector<std::uint64_t> cell_of_middle;
+    std::pmr::vector<std::uint64_t> cell_of_middle(&memory);
     cell_of_middle.reserve(chosen.size());
     for (const std::uint32_t primitive : chosen) {
         const Box box = primitives.box(primitive);
