@@ -41,13 +41,29 @@ void write_ids(const OutputArray& array, const Elements& elements, const IdOf& i
     }
 }
 
+// In parts of so many, few enough to stay in the first-level cache from one component to the next. What lies all over the caller's memory is
+// asked for before it is needed: the indices of a triangle two parts ahead, the vertices that they name and the place of the answer one.
 void write_normals(const OutputArray& array, const Elements& elements, const PrimitiveHit* hits,
                    const Primitives& primitives) {
     if (!array.wanted()) return;
-    constexpr std::size_t together = 64; // few enough to stay at hand from one component to the next
+    constexpr std::size_t together = 64;
+    const std::size_t count = elements.count();
+    const auto for_hits = [&](std::size_t begin, const auto& ask) {
+        for (std::size_t k = begin; k < std::min(begin + together, count); ++k) {
+            if (hits[k].is_hit()) ask(hits[k].primitive);
+        }
+    };
+    const auto ask_for_indices = [&](std::uint32_t hit) { primitives.prefetch_indices(hit); };
+    const auto ask_for_vertices = [&](std::uint32_t hit) { primitives.prefetch_vertices(hit); };
+    for_hits(0, ask_for_indices);
+    for_hits(together, ask_for_indices);
+    for_hits(0, ask_for_vertices);
     Vec3 normals[together];
-    for (std::size_t begin = 0; begin < elements.count(); begin += together) {
-        const Elements part = elements.part(begin, std::min(together, elements.count() - begin));
+    for (std::size_t begin = 0; begin < count; begin += together) {
+        const Elements part = elements.part(begin, std::min(together, count - begin));
+        array.prefetch(part);
+        for_hits(begin + 2 * together, ask_for_indices);
+        for_hits(begin + together, ask_for_vertices);
         for (std::size_t k = 0; k < part.count(); ++k) normals[k] = normal_of(hits[begin + k], primitives);
         for (int axis = 0; axis < 3; ++axis)
             write_numbers(array, axis, part, [&](std::size_t k) { return normals[k][axis]; });
@@ -94,7 +110,7 @@ void HitArrays::write(const Elements& elements, const PrimitiveHit* hits, const 
 }
 
 void HitArrays::prefetch(const Elements& elements) const {
-    for (const OutputArray* array : {&t, &uv, &normal, &instance, &geometry, &primitive}) array->prefetch(elements);
+    for (const OutputArray* array : {&t, &uv, &instance, &geometry, &primitive}) array->prefetch(elements);
 }
 
 } // namespace raywise
