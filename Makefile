@@ -77,6 +77,11 @@ bench-rust: ## speed beside Rust crates; build/reports/bench-rust.json [QUICK=1]
 	@tools/setup.sh bench bench-rust
 	@tools/bench.sh rust
 
+.PHONY: bench-python
+bench-python: ## speed beside Python's ray libraries; build/reports/bench-python.json [QUICK=1] [BENCH_FLAGS='--scene bunny --threads all']
+	@tools/setup.sh bench bench-python
+	@tools/bench.sh python
+
 .PHONY: growth
 growth: ## whether very many calls leave anything behind [CALLS=1000000] [KIND='commit, bvh']
 	@tools/setup.sh native

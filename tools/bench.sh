@@ -2,10 +2,12 @@
 # tools/bench.sh          builds the benchmarks (preset bench) and runs them; each prints a table and leaves
 #                         build/reports/NAME.json behind
 # tools/bench.sh rust     raywise beside ray tracing crates instead (make bench-rust)
+# tools/bench.sh python   raywise beside Python's ray libraries instead (make bench-python)
 #
 # From the environment:
 #   QUICK=1       small scenes and short timings, to see that they run
-#   BENCH_FLAGS   more options of raywise_bench, which then runs alone: --help lists them; for the crates, which scenes
+#   BENCH_FLAGS   more options of raywise_bench, which then runs alone: --help lists them; for the crates, which scenes; for
+#                 Python, options of bench_python.py
 #
 # Meshes are taken from the data folder beside the project, or RAYWISE_TEST_DATA, where there is one. The dragon is
 # downloaded where there is npm, but not for QUICK=1. What is not there is left out, and said so.
@@ -59,6 +61,22 @@ against_crates() {
     note "written to build/reports/bench-rust.json"
 }
 
+against_python() {
+    local scenes=$ROOT/build/bench-python-scenes rays=1000000
+    local -a asked=("${flags[@]}") # of the other program than the one that writes the scenes
+    flags=()
+    [[ ${QUICK:-} != 1 ]] || rays=10000
+    step "Writing scenes and $rays rays of each kind"
+    rm -rf "$scenes"
+    raywise_bench --scene box,bunny,dragon,soup --export "$scenes" --export-rays "$rays"
+    step "raywise beside Python's ray libraries"
+    RAYWISE_CALIBRATION=${RAYWISE_CALIBRATION:-builtin} RAYWISE_LIBRARY=$BUILD/capi/libraywise.so.1 \
+        PYTHONPATH=$ROOT/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+        "$BENCH_PYTHON_VENV/bin/python" tests/bench/python/bench_python.py "$scenes" "${common[@]}" \
+        --json "$REPORTS/bench-python.json" --command "$command" "${asked[@]}" | tee "$REPORTS/bench-python.txt"
+    note "written to build/reports/bench-python.json and bench-python.txt"
+}
+
 triangle_test() {
     step "What the exact triangle test costs"
     "$BUILD/tests/bench/bench_triangle_test" exact="$BUILD/capi/libraywise.so.1" \
@@ -73,7 +91,7 @@ fi
 
 step "Building the benchmarks"
 cmake --preset bench
-if [[ $goal == bench-rust || -n ${BENCH_FLAGS:-} ]]; then
+if [[ $goal != bench || -n ${BENCH_FLAGS:-} ]]; then
     cmake --build --preset bench --target raywise_bench
 else
     cmake --build --preset bench
@@ -82,6 +100,8 @@ fi
 mkdir -p "$REPORTS"
 if [[ $goal == bench-rust ]]; then
     against_crates
+elif [[ $goal == bench-python ]]; then
+    against_python
 else
     against_peers
     [[ -n ${BENCH_FLAGS:-} ]] || triangle_test

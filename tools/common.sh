@@ -11,6 +11,8 @@ PEERS_VENV=$ROOT/build/venv-peers
 # shellcheck disable=SC2034
 BENCH_VENV=$ROOT/build/venv-bench
 # shellcheck disable=SC2034
+BENCH_PYTHON_VENV=$ROOT/build/venv-bench-python
+# shellcheck disable=SC2034
 DRAGON=$ROOT/build/data/dragon.ply
 TOOLCHAIN=$ROOT/build/toolchain/bin
 

@@ -14,6 +14,7 @@ readonly TABLE=$ROOT/tools/packages.txt
 readonly REQUIREMENTS=$ROOT/bindings/python/requirements-test.txt
 readonly PEERS_REQUIREMENTS=$ROOT/tests/contract/peers/requirements.txt
 readonly BENCH_REQUIREMENTS=$ROOT/tests/bench/requirements.txt
+readonly BENCH_PYTHON_REQUIREMENTS=$ROOT/tests/bench/python/requirements.txt
 readonly LOGS=$ROOT/build/setup
 
 check_only=no
@@ -73,6 +74,13 @@ probe_locale_source() { # NAMES...
     have localedef && [[ -e /usr/share/i18n/charmaps/UTF-8.gz || -e /usr/share/i18n/charmaps/UTF-8 ]] || return 1
     for name in "$@"; do
         [[ -e /usr/share/i18n/locales/$name ]] || return 1
+    done
+}
+
+probe_shared_libraries() { # NAMES...
+    local name
+    for name in "$@"; do
+        [[ $(/sbin/ldconfig -p 2>/dev/null) == *"$name"* ]] || return 1
     done
 }
 
@@ -362,6 +370,9 @@ main() {
     fi
     if needs bench; then
         make_venv "$BENCH_VENV" "$BENCH_REQUIREMENTS"
+    fi
+    if needs bench-python; then
+        make_venv "$BENCH_PYTHON_VENV" "$BENCH_PYTHON_REQUIREMENTS"
     fi
     if needs test; then
         fetch_crates

@@ -33,7 +33,8 @@ struct CommandLine {
     std::string command;
     bool list = false;
     std::string export_folder;
-    std::string memory_of; // what a process of its own is started for
+    std::uint64_t export_rays = 0; // of each kind; 0: as many as single calls are asked
+    std::string memory_of;         // what a process of its own is started for
     std::string stored_mesh;
 };
 
@@ -127,7 +128,9 @@ bool run(const CommandLine& line) {
         }
         SceneUnderTest scene(session, rows[i]->name, std::move(test_scene));
         if (!line.export_folder.empty()) {
-            if (!rows[i]->far_apart) export_scene(scene, line.export_folder);
+            if (!rows[i]->far_apart)
+                export_scene(scene, line.export_folder,
+                             line.export_rays != 0 ? line.export_rays : session.effort.single_rays);
             continue;
         }
         for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -186,6 +189,8 @@ int main_of(int argc, char** argv) {
     app.add_option("--commit", line.commit, "of the sources, for the report");
     app.add_option("--command", line.command, "what was typed, for the report");
     app.add_option("--export", line.export_folder, "only write scenes and rays into this folder, for other benchmarks");
+    app.add_option("--export-rays", line.export_rays, "how many of each kind (as many as single calls are asked)")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}));
     app.add_flag("--list", line.list, "who would take part");
     app.add_option("--memory-of", line.memory_of)->group("");
     app.add_option("--stored-mesh", line.stored_mesh)->group("");

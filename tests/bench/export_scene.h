@@ -3,12 +3,13 @@
 
 #include "bench/session.h"
 
+#include <cstdint>
 #include <string>
 
 namespace raywise::bench {
 
-// Writes folder/NAME.scene: vertices and indices, then origin, direction, tmin and tmax of each kind of ray in the order of
+// Writes folder/NAME.scene: vertices and indices, then origin, direction, tmin and tmax of so many rays of each kind in the order of
 // workloads::ray_distributions(); arrays as binary.h has them.
-void export_scene(SceneUnderTest& scene, const std::string& folder);
+void export_scene(SceneUnderTest& scene, const std::string& folder, std::uint64_t rays_of_kind);
 
 } // namespace raywise::bench
