@@ -70,7 +70,9 @@ against_python() {
     rm -rf "$scenes"
     raywise_bench --scene box,bunny,dragon,soup --export "$scenes" --export-rays "$rays"
     step "raywise beside Python's ray libraries"
-    RAYWISE_CALIBRATION=${RAYWISE_CALIBRATION:-builtin} RAYWISE_LIBRARY=$BUILD/capi/libraywise.so.1 \
+    # NumPy's threads of OpenBLAS, which trimesh wakes, go on asking for work for a while: on one processor beside whoever is measured then.
+    OPENBLAS_NUM_THREADS=1 \
+        RAYWISE_CALIBRATION=${RAYWISE_CALIBRATION:-builtin} RAYWISE_LIBRARY=$BUILD/capi/libraywise.so.1 \
         PYTHONPATH=$ROOT/bindings/python PYTHONDONTWRITEBYTECODE=1 \
         "$BENCH_PYTHON_VENV/bin/python" tests/bench/python/bench_python.py "$scenes" "${common[@]}" \
         --json "$REPORTS/bench-python.json" --command "$command" "${asked[@]}" | tee "$REPORTS/bench-python.txt"

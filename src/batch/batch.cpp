@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,10 +22,15 @@ struct RayBlock {
     const AnyRay* rays;
     const Query* queries;
     Scratch& scratch; // for whatever the block takes
+    RayWindow<AnyRay>*
+        keeps; // what its hits are to be kept in, until the caller's arrays are written in their order; null: they are written at once
 
     std::size_t size() const { return elements.count(); }
     PacketOf<AnyRay> packet() const { return {rays, queries, size()}; }
 };
+
+// For answers that are always written at once.
+struct NothingKept {};
 
 // A batch, a window of it after the other, cut into blocks. Rays are read as AnyRay.
 template <class AnyRay>
@@ -43,10 +49,10 @@ public:
           // Without areas that nobody may have asked for yet: it is but an order.
           window_(rays, tracer.primitives().outer_bounds(), parallel_, progress_, workspace_.window()) {}
 
-    // Calls body(block) for all rays, on several threads. Returns how many of the rays held a NaN, which body tells of its block, and notes
-    // the time. Throws Error(ERROR_CANCELLED) when it is stopped.
-    template <class Body>
-    std::uint64_t run(const Body& body) {
+    // Calls body(block) for all rays, on several threads, and write(elements, hits) for the hits that it has kept. Returns how many of the rays held
+    // a NaN, which body tells of its block, and notes the time. Throws Error(ERROR_CANCELLED) when it is stopped.
+    template <class Body, class Write>
+    std::uint64_t run(const Body& body, const Write& write) {
         const Clock::time_point start = Clock::now();
         for (std::uint64_t first = 0; first < rays_.count;) {
             std::uint64_t count = std::min<std::uint64_t>(rays_.count - first, ordering_window);
@@ -60,6 +66,9 @@ public:
             }
             window_.move_to(first, count, sorted);
             run_window(body);
+            if constexpr (!std::is_same_v<Write, NothingKept>) {
+                if (sorted) window_.write_kept(write);
+            }
             first += count;
         }
         progress_.finish();
@@ -87,7 +96,8 @@ private:
         auto* const rays = thread.scratch.take<AnyRay>(elements.count());
         window_.read(elements, rays);
         thread.skips.read(rays_.skip, elements, tracer_.primitives());
-        thread.invalid += body(RayBlock<AnyRay>{elements, rays, thread.skips.queries(), thread.scratch});
+        thread.invalid += body(RayBlock<AnyRay>{elements, rays, thread.skips.queries(), thread.scratch,
+                                                window_.is_sorted() ? &window_ : nullptr});
     }
 
     // Each thread takes the next block that nobody has taken, so that all end at about the same time. Returns how long a ray took in the
@@ -138,33 +148,43 @@ private:
 };
 
 // BatchLoop::run for rays of either type.
-template <class Body>
-std::uint64_t run_batch(const Tracer& tracer, const RayArrays& rays, const BatchOptions& options, const Body& body) {
-    return as_read(rays, [&](auto any_ray) { return BatchLoop<decltype(any_ray)>(tracer, rays, options).run(body); });
+template <class Body, class Write>
+std::uint64_t run_batch(const Tracer& tracer, const RayArrays& rays, const BatchOptions& options, const Body& body,
+                        const Write& write) {
+    return as_read(rays,
+                   [&](auto any_ray) { return BatchLoop<decltype(any_ray)>(tracer, rays, options).run(body, write); });
 }
 
 } // namespace
 
 std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const HitArrays& hits,
                               const BatchOptions& options) {
-    return run_batch(tracer, rays, options, [&](const auto& block) {
+    const auto write = [&](const Elements& elements, const PrimitiveHit* found) {
+        hits.write(elements, found, tracer.primitives());
+    };
+    const auto answer = [&](const auto& block) {
         auto* const found = block.scratch.template take<PrimitiveHit>(block.size());
-        hits.prefetch(block.elements);
         const std::uint64_t invalid = tracer.closest_many(block.packet(), found, block.scratch);
-        hits.write(block.elements, found, tracer.primitives());
+        if (block.keeps != nullptr) {
+            block.keeps->keep(block.elements, found);
+        } else {
+            write(block.elements, found);
+        }
         return invalid;
-    });
+    };
+    return run_batch(tracer, rays, options, answer, write);
 }
 
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const BatchOptions& options) {
-    return run_batch(tracer, rays, options, [&](const auto& block) {
+    const auto answer = [&](const auto& block) {
         auto* const found = block.scratch.template take<bool>(block.size());
         occluded.prefetch(block.elements);
         const std::uint64_t invalid = tracer.any_many(block.packet(), found, block.scratch);
         occluded.write(block.elements, found);
         return invalid;
-    });
+    };
+    return run_batch(tracer, rays, options, answer, NothingKept{});
 }
 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
@@ -172,12 +192,13 @@ std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, s
                                   const BatchOptions& options) {
     std::vector<std::vector<PrimitiveHit>> found(rays.count);
     // As float64, which is what is asked of structures for all hits.
-    const std::uint64_t invalid = BatchLoop<Ray>(tracer, rays, options).run([&](const RayBlock<Ray>& block) {
+    const auto answer = [&](const RayBlock<Ray>& block) {
         std::vector<std::vector<PrimitiveHit>> of_block(block.size());
         const std::uint64_t invalid_of_block = tracer.all_many(block.packet(), of_block.data());
         for (std::size_t k = 0; k < block.size(); ++k) found[block.elements[k]] = std::move(of_block[k]);
         return invalid_of_block;
-    });
+    };
+    const std::uint64_t invalid = BatchLoop<Ray>(tracer, rays, options).run(answer, NothingKept{});
     std::vector<std::uint64_t> first(rays.count + 1, 0);
     for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
     if (first.back() <= capacity) {

@@ -42,7 +42,7 @@ void write_ids(const OutputArray& array, const Elements& elements, const IdOf& i
 }
 
 // In parts of so many, few enough to stay in the first-level cache from one component to the next. What lies all over the caller's memory is
-// asked for before it is needed: the indices of a triangle two parts ahead, the vertices that they name and the place of the answer one.
+// asked for before it is needed: the indices of a triangle two parts ahead, the vertices that they name one.
 void write_normals(const OutputArray& array, const Elements& elements, const PrimitiveHit* hits,
                    const Primitives& primitives) {
     if (!array.wanted()) return;
@@ -61,7 +61,6 @@ void write_normals(const OutputArray& array, const Elements& elements, const Pri
     Vec3 normals[together];
     for (std::size_t begin = 0; begin < count; begin += together) {
         const Elements part = elements.part(begin, std::min(together, count - begin));
-        array.prefetch(part);
         for_hits(begin + 2 * together, ask_for_indices);
         for_hits(begin + together, ask_for_vertices);
         for (std::size_t k = 0; k < part.count(); ++k) normals[k] = normal_of(hits[begin + k], primitives);
@@ -107,10 +106,6 @@ void HitArrays::write(const Elements& elements, const PrimitiveHit* hits, const 
         write_ids(primitive, elements, [&](std::size_t k) { return located(k).primitive; });
     }
     write_normals(normal, elements, hits, primitives);
-}
-
-void HitArrays::prefetch(const Elements& elements) const {
-    for (const OutputArray* array : {&t, &uv, &instance, &geometry, &primitive}) array->prefetch(elements);
 }
 
 } // namespace raywise

@@ -34,7 +34,6 @@ struct HitArrays {
 
     // All fields that are wanted.
     void write(const Elements& elements, const PrimitiveHit* hits, const Primitives& primitives) const;
-    void prefetch(const Elements& elements) const;
 };
 
 } // namespace raywise

@@ -71,6 +71,12 @@ void RayWindow<AnyRay>::read(const Elements& part, AnyRay* rays) const {
     }
 }
 
+template <class AnyRay>
+void RayWindow<AnyRay>::keep(const Elements& part, const PrimitiveHit* hits) {
+    for (std::size_t k = 0; k < part.count(); ++k)
+        std::memcpy(static_cast<void*>(copies_.data() + (part[k] - first_)), hits + k, sizeof *hits);
+}
+
 template class RayWindow<Ray>;
 template class RayWindow<RayF>;
 

@@ -11,10 +11,14 @@
 #include "batch/elements.h"
 #include "batch/ray_arrays.h"
 #include "batch/ray_order.h"
+#include "geometry/primitives.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <tuple>
+#include <type_traits>
 
 namespace raywise {
 
@@ -44,11 +48,25 @@ public:
     // Moves to those rays. sorted: in the order of their keys.
     void move_to(std::uint64_t first, std::size_t count, bool sorted);
     const Elements& elements() const { return elements_; }
+    bool is_sorted() const { return is_sorted_; }
 
     // The rays of a part of elements(). Different threads may read different parts.
     void read(const Elements& part, AnyRay* rays) const;
 
+    // Of a sorted window: keeps the hits of a part, whose rays have been read, and calls write(elements, hits) for all that were kept, in the order
+    // of the caller's arrays, on several threads.
+    void keep(const Elements& part, const PrimitiveHit* hits);
+    template <class Write>
+    void write_kept(const Write& write);
+
 private:
+    static_assert(sizeof(PrimitiveHit) <= sizeof(AnyRay) && std::is_trivially_copyable_v<PrimitiveHit>);
+
+    PrimitiveHit kept(std::size_t number) const {
+        PrimitiveHit hit;
+        std::memcpy(static_cast<void*>(&hit), copies_.data() + number, sizeof hit);
+        return hit;
+    }
     const std::uint32_t* sort(std::uint64_t first, std::size_t count);
 
     const RayArrays& rays_;
@@ -61,5 +79,20 @@ private:
     bool is_sorted_ = false;
     Elements elements_{0, 0};
 };
+
+template <class AnyRay>
+template <class Write>
+void RayWindow<AnyRay>::write_kept(const Write& write) {
+    constexpr std::size_t at_once = 512; // stay in the first-level cache
+    parallel_.for_blocks(elements_.count(), 32 * at_once, [&](std::uint64_t block_begin, std::uint64_t block_end) {
+        PrimitiveHit hits[at_once];
+        for (std::size_t begin = block_begin; begin < block_end; begin += at_once) {
+            progress_.poll();
+            const std::size_t n = std::min<std::size_t>(at_once, block_end - begin);
+            for (std::size_t k = 0; k < n; ++k) hits[k] = kept(begin + k);
+            write(Elements(first_ + begin, n), hits);
+        }
+    });
+}
 
 } // namespace raywise
