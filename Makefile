@@ -78,7 +78,7 @@ bench-rust: ## speed beside Rust crates; build/reports/bench-rust.json [QUICK=1]
 	@tools/bench.sh rust
 
 .PHONY: bench-python
-bench-python: ## speed beside Python's ray libraries; build/reports/bench-python.json [QUICK=1] [BENCH_FLAGS='--scene bunny --threads all']
+bench-python: ## speed beside Python's ray libraries; build/reports/bench-python.json [QUICK=1] [BENCH_FLAGS='--threads all ...']
 	@tools/setup.sh bench bench-python
 	@tools/bench.sh python
 

@@ -6,8 +6,8 @@
 #
 # From the environment:
 #   QUICK=1       small scenes and short timings, to see that they run
-#   BENCH_FLAGS   more options of raywise_bench, which then runs alone: --help lists them; for the crates, which scenes; for
-#                 Python, options of bench_python.py
+#   BENCH_FLAGS   more options of raywise_bench, which then runs alone: --help lists them; for the crates, which scenes;
+#                 for Python those of tests/bench/python/bench_python.py
 #
 # Meshes are taken from the data folder beside the project, or RAYWISE_TEST_DATA, where there is one. The dragon is
 # downloaded where there is npm, but not for QUICK=1. What is not there is left out, and said so.
@@ -16,6 +16,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 readonly BUILD=$ROOT/build/bench
 readonly REPORTS=$ROOT/build/reports
 readonly RUST=$ROOT/tests/bench/rust
+readonly PYTHON_BENCH=$ROOT/tests/bench/python/bench_python.py
 readonly DATA=${RAYWISE_TEST_DATA:-$ROOT/../shared/data/meshes}
 
 read -ra flags <<<"${BENCH_FLAGS:-}"
@@ -32,11 +33,15 @@ embree4() { compgen -G "$BENCH_VENV/lib/python*/site-packages/embreex.libs/libem
 # Built where there is AVX2 to force.
 readonly AVX2=$BUILD/tests/bench/libraywise-avx2.so
 
+readonly BENCH=$BUILD/tests/bench/raywise_bench
+readonly LIBRARY=$BUILD/capi/libraywise.so.1
+scene_files=(--meshes "$DATA" --spd "$DATA/../spd" --dragon "$DRAGON")
+
 raywise_bench() {
     local avx2=
     [[ ! -e $AVX2 ]] || avx2=$AVX2
-    "$BUILD/tests/bench/raywise_bench" --library "$BUILD/capi/libraywise.so.1" --library-avx2 "$avx2" --embree4 "$(embree4)" \
-        --meshes "$DATA" --spd "$DATA/../spd" --dragon "$DRAGON" "${common[@]}" "${flags[@]}" "$@"
+    "$BENCH" --library "$LIBRARY" --library-avx2 "$avx2" --embree4 "$(embree4)" "${scene_files[@]}" "${common[@]}" \
+        "${flags[@]}" "$@"
 }
 
 against_peers() {
@@ -61,21 +66,15 @@ against_crates() {
     note "written to build/reports/bench-rust.json"
 }
 
+# The flags come last, so that a --json among them is the one that counts; the exporter gets its own.
 against_python() {
-    local scenes=$ROOT/build/bench-python-scenes rays=1000000
-    local -a asked=("${flags[@]}") # of the other program than the one that writes the scenes
-    flags=()
-    [[ ${QUICK:-} != 1 ]] || rays=10000
-    step "Writing scenes and $rays rays of each kind"
-    rm -rf "$scenes"
-    raywise_bench --scene box,bunny,dragon,soup --export "$scenes" --export-rays "$rays"
+    local -a quick=()
+    [[ ${QUICK:-} != 1 ]] || quick=(--quick)
     step "raywise beside Python's ray libraries"
-    # NumPy's threads of OpenBLAS, which trimesh wakes, go on asking for work for a while: on one processor beside whoever is measured then.
-    OPENBLAS_NUM_THREADS=1 \
-        RAYWISE_CALIBRATION=${RAYWISE_CALIBRATION:-builtin} RAYWISE_LIBRARY=$BUILD/capi/libraywise.so.1 \
-        PYTHONPATH=$ROOT/bindings/python PYTHONDONTWRITEBYTECODE=1 \
-        "$BENCH_PYTHON_VENV/bin/python" tests/bench/python/bench_python.py "$scenes" "${common[@]}" \
-        --json "$REPORTS/bench-python.json" --command "$command" "${asked[@]}" | tee "$REPORTS/bench-python.txt"
+    RAYWISE_LIBRARY=$LIBRARY PYTHONPATH=$ROOT/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+        "$BENCH_PYTHON_VENV/bin/python" "$PYTHON_BENCH" "$ROOT/build/bench-scenes-python" \
+        --json "$REPORTS/bench-python.json" --command "$command" "${common[@]}" "${flags[@]}" \
+        -- "$BENCH" --library "$LIBRARY" "${scene_files[@]}" "${quick[@]}" | tee "$REPORTS/bench-python.txt"
     note "written to build/reports/bench-python.json and bench-python.txt"
 }
 
@@ -100,11 +99,11 @@ else
 fi
 
 mkdir -p "$REPORTS"
-if [[ $goal == bench-rust ]]; then
-    against_crates
-elif [[ $goal == bench-python ]]; then
-    against_python
-else
+case $goal in
+bench-rust) against_crates ;;
+bench-python) against_python ;;
+*)
     against_peers
     [[ -n ${BENCH_FLAGS:-} ]] || triangle_test
-fi
+    ;;
+esac

@@ -15,6 +15,7 @@ readonly REQUIREMENTS=$ROOT/bindings/python/requirements-test.txt
 readonly PEERS_REQUIREMENTS=$ROOT/tests/contract/peers/requirements.txt
 readonly BENCH_REQUIREMENTS=$ROOT/tests/bench/requirements.txt
 readonly BENCH_PYTHON_REQUIREMENTS=$ROOT/tests/bench/python/requirements.txt
+readonly OPEN3D_REQUIREMENTS=$ROOT/tests/bench/python/requirements-open3d.txt
 readonly LOGS=$ROOT/build/setup
 
 check_only=no
@@ -68,19 +69,21 @@ probe_certificates() {
     return 1
 }
 
+# What the system's loader finds.
+probe_shared_library() { # SONAMES...
+    local known name
+    known=$(PATH=$PATH:/usr/sbin:/sbin ldconfig -p 2>/dev/null) || return 1
+    for name in "$@"; do
+        [[ $known == *"$name "* ]] || return 1
+    done
+}
+
 # What localedef makes locales from.
 probe_locale_source() { # NAMES...
     local name
     have localedef && [[ -e /usr/share/i18n/charmaps/UTF-8.gz || -e /usr/share/i18n/charmaps/UTF-8 ]] || return 1
     for name in "$@"; do
         [[ -e /usr/share/i18n/locales/$name ]] || return 1
-    done
-}
-
-probe_shared_libraries() { # NAMES...
-    local name
-    for name in "$@"; do
-        [[ $(/sbin/ldconfig -p 2>/dev/null) == *"$name"* ]] || return 1
     done
 }
 
@@ -323,6 +326,26 @@ condense_pip() {
     grep --line-buffered -E '^ *(Downloading|Successfully|ERROR|WARNING|error)' | sed -u 's/^ */    /' || true
 }
 
+run_pip() { # FOLDER REQUIREMENTS
+    "$1/bin/python" -m pip install --no-input --disable-pip-version-check --progress-bar off -r "$2" \
+        </dev/null 2>&1 | tee "$LOGS/pip.log" | condense_pip
+}
+
+# More packages, which there are not for every Python: what cannot be had is asked for again the next time.
+add_to_venv() { # FOLDER REQUIREMENTS WHAT
+    local folder=$1 requirements=$2 what=$3
+    if venv_recipe "$folder/bin/python" "$folder" "$requirements" | cmp -s - "$folder/added-from.txt"; then
+        return 0
+    fi
+    step "Installing $what into ${folder#"$ROOT/"}"
+    mkdir -p "$LOGS"
+    if run_pip "$folder" "$requirements"; then
+        venv_recipe "$folder/bin/python" "$folder" "$requirements" >"$folder/added-from.txt"
+    else
+        note "$what is left out: pip has none for $("$folder/bin/python" --version) here; what it said is in build/setup/pip.log"
+    fi
+}
+
 make_venv() { # FOLDER REQUIREMENTS
     local folder=$1 requirements=$2 name=${1#"$ROOT/"} python
     python=$(find_python 3.9) || fail "no python3 of version 3.9 or newer on PATH"
@@ -336,10 +359,7 @@ make_venv() { # FOLDER REQUIREMENTS
     mkdir -p "$LOGS"
     rm -rf "$folder"
     "$python" -m venv "$folder"
-    if ! "$folder/bin/python" -m pip install --no-input --disable-pip-version-check --progress-bar off \
-        -r "$requirements" </dev/null 2>&1 | tee "$LOGS/pip.log" | condense_pip; then
-        fail "pip failed; all it said is in build/setup/pip.log"
-    fi
+    run_pip "$folder" "$requirements" || fail "pip failed; all it said is in build/setup/pip.log"
     # Last, so that an interrupted run is not taken for a finished one.
     venv_recipe "$python" "$folder" "$requirements" >"$folder/made-from.txt"
 }
@@ -373,6 +393,7 @@ main() {
     fi
     if needs bench-python; then
         make_venv "$BENCH_PYTHON_VENV" "$BENCH_PYTHON_REQUIREMENTS"
+        add_to_venv "$BENCH_PYTHON_VENV" "$OPEN3D_REQUIREMENTS" Open3D
     fi
     if needs test; then
         fetch_crates
