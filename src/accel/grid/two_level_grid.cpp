@@ -3,6 +3,7 @@
 #include "accel/grid/cell_blocks.h"
 #include "accel/grid/grid_choice.h"
 #include "accel/grid/list_builder.h"
+#include "base/page_array.h"
 #include "geometry/triangle_box_overlap.h"
 
 #include <algorithm>
@@ -35,9 +36,9 @@ struct InnerCell {
 
 // Of some coarse bricks.
 struct SplitPart {
-    std::vector<std::uint32_t> own;
-    std::vector<std::uint32_t> inner;
-    std::vector<InnerCell> cells;
+    PageVector<std::uint32_t> own;
+    PageVector<std::uint32_t> inner;
+    PageVector<InnerCell> cells;
 };
 
 class CoarseSplit {
@@ -81,7 +82,7 @@ public:
         }
     }
 
-    const std::vector<InnerCell>& cells() const { return cells_; }
+    const PageVector<InnerCell>& cells() const { return cells_; }
     const PageArray<std::uint32_t>& inner_references() const { return inner_references_; }
 
 private:
@@ -95,8 +96,8 @@ private:
 
     void split(std::uint64_t task, std::uint64_t first, std::uint64_t end) {
         SplitPart& part = parts_[task];
-        std::vector<Box> boxes;
-        std::vector<double> lengths;
+        PageVector<Box> boxes;
+        PageVector<double> lengths;
         for (std::uint64_t cell = first; cell < end; ++cell) {
             const std::uint32_t count = lists_.count(cell);
             if (count == 0) continue;
@@ -109,8 +110,8 @@ private:
     }
 
     // Returns false where the cell keeps all.
-    bool split_cell(std::uint64_t cell, const std::uint32_t* list, std::uint32_t count, std::vector<Box>& boxes,
-                    std::vector<double>& lengths, SplitPart& part) {
+    bool split_cell(std::uint64_t cell, const std::uint32_t* list, std::uint32_t count, PageVector<Box>& boxes,
+                    PageVector<double>& lengths, SplitPart& part) {
         boxes.clear();
         lengths.clear();
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -140,7 +141,7 @@ private:
     }
 
     // What is longer is large.
-    static double large_length(std::vector<double>& lengths) {
+    static double large_length(PageVector<double>& lengths) {
         const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
         std::nth_element(lengths.begin(), median, lengths.end());
         return large_in_medians * *median;
@@ -169,10 +170,10 @@ private:
     const TwoLevelOptions& options_;
     const CellLattice& coarse_;
     GridLists& lists_;
-    std::vector<SplitPart> parts_;
+    PageVector<SplitPart> parts_;
     PageArray<std::uint32_t> own_counts_;
     PageArray<std::uint32_t> inner_references_;
-    std::vector<InnerCell> cells_;
+    PageVector<InnerCell> cells_;
 };
 
 CellLattice inner_lattice(const InnerCell& cell, double density, const Box& scene) {
@@ -194,7 +195,7 @@ CellLattice inner_lattice(const InnerCell& cell, double density, const Box& scen
 class InnerReferences {
 public:
     InnerReferences(const Primitives& primitives, const PageArray<std::uint32_t>& references,
-                    const std::vector<InnerGrid>& grids, const std::vector<std::uint64_t>& ends)
+                    const PageVector<InnerGrid>& grids, const PageVector<std::uint64_t>& ends)
         : primitives_(primitives), references_(references), grids_(grids), ends_(ends) {}
 
     std::uint64_t blocks() const { return (references_.size() + references_per_block - 1) / references_per_block; }
@@ -215,12 +216,12 @@ public:
 private:
     const Primitives& primitives_;
     const PageArray<std::uint32_t>& references_;
-    const std::vector<InnerGrid>& grids_;
-    const std::vector<std::uint64_t>& ends_; // of each grid
+    const PageVector<InnerGrid>& grids_;
+    const PageVector<std::uint64_t>& ends_; // of each grid
 };
 
 // False where there are more numbers than that.
-bool make_inner_grids(const std::vector<InnerCell>& cells, double density, const Box& scene, TwoLevels& levels) {
+bool make_inner_grids(const PageVector<InnerCell>& cells, double density, const Box& scene, TwoLevels& levels) {
     levels.inner.clear();
     levels.inner.reserve(cells.size());
     std::uint64_t numbers = 0;
@@ -235,7 +236,7 @@ bool make_inner_grids(const std::vector<InnerCell>& cells, double density, const
 
 void build_inner_grids(const BuildInput& input, const TwoLevelOptions& options, const CoarseSplit& split,
                        TwoLevels& levels) {
-    std::vector<std::uint64_t> ends;
+    PageVector<std::uint64_t> ends;
     std::uint64_t end = 0;
     for (const InnerCell& cell : split.cells()) ends.push_back(end += cell.count);
     const std::uint64_t most = std::max<std::uint64_t>(end, max_grid_references(input.primitives.hittable_count()));

@@ -44,7 +44,7 @@ struct TwoLevels {
     CellLattice coarse;
     GridLists own;                     // of each coarse cell; occupied tells the cells with a grid as well
     PageArray<std::uint32_t> inner_of; // the grid of each coarse cell, or no_grid
-    std::vector<InnerGrid> inner;
+    PageVector<InnerGrid> inner;
     GridLists lists; // of the cells of all inner grids
 
     std::size_t bytes() const {

@@ -1,6 +1,7 @@
 #include "accel/kdtree/treelet_cuts.h"
 
 #include "accel/kdtree/treelets.h"
+#include "base/page_array.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,9 @@ struct Cell {
     }
 };
 
-std::vector<float> areas_of(const KdTreeData& tree, const BoxF& bounds) {
-    std::vector<float> areas(tree.nodes.size());
-    std::vector<Cell> waiting{
+PageVector<float> areas_of(const KdTreeData& tree, const BoxF& bounds) {
+    PageVector<float> areas(tree.nodes.size());
+    PageVector<Cell> waiting{
         {0, {bounds.lower.x, bounds.lower.y, bounds.lower.z}, {bounds.upper.x, bounds.upper.y, bounds.upper.z}}};
     while (!waiting.empty()) {
         Cell below = waiting.back();
@@ -44,9 +45,9 @@ std::vector<float> areas_of(const KdTreeData& tree, const BoxF& bounds) {
 } // namespace
 
 TreeletCuts::TreeletCuts(const KdTreeData& tree, const BoxF& bounds) : cuts_(tree.nodes.size()) {
-    const std::vector<float> areas = areas_of(tree, bounds);
+    const PageVector<float> areas = areas_of(tree, bounds);
     // What a subtree costs when the treelet above has so many levels left for it; with none, it begins one of its own.
-    std::vector<std::array<float, treelet_levels>> costs(tree.nodes.size());
+    PageVector<std::array<float, treelet_levels>> costs(tree.nodes.size());
     // Children have higher numbers than their parents.
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         const KdNode& node = tree.nodes[i];

@@ -3,9 +3,9 @@
 
 #include "accel/kdtree/build/binary_tree.h"
 #include "base/box.h"
+#include "base/page_array.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
 
@@ -21,7 +21,7 @@ public:
     bool begins(std::uint32_t node, int levels) const { return (cuts_[node] >> levels & 1u) != 0; }
 
 private:
-    std::vector<std::uint8_t> cuts_; // bits, by how many levels are left
+    PageVector<std::uint8_t> cuts_; // bits, by how many levels are left
 };
 
 } // namespace raywise

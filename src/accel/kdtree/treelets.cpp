@@ -1,13 +1,13 @@
 #include "accel/kdtree/treelets.h"
 
 #include "accel/kdtree/treelet_cuts.h"
+#include "base/page_array.h"
 #include "geometry/mesh_cursor.h"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace raywise {
 namespace {
@@ -40,8 +40,8 @@ public:
         }
     }
 
-    std::vector<KdTreelet> treelets;
-    std::vector<PlacedLeaf> leaves;
+    PageVector<KdTreelet> treelets;
+    PageVector<PlacedLeaf> leaves;
     std::size_t leaf_bytes = 0;
 
 private:
@@ -97,7 +97,7 @@ private:
     const KdTreeData& tree_;
     const TreeletCuts cuts_;
     const std::size_t bytes_per_triangle_;
-    std::vector<Waiting> waiting_;
+    PageVector<Waiting> waiting_;
 };
 
 CornersF corners_as(float, const TriangleMesh& mesh, std::uint32_t triangle) { return mesh.corners_float32(triangle); }
@@ -133,7 +133,7 @@ void write_leaf(const std::uint32_t* list, std::uint32_t count, const Vec3& cent
 }
 
 template <class T>
-void write_leaves(const KdTreeData& tree, const std::vector<PlacedLeaf>& leaves, const BuildInput& input,
+void write_leaves(const KdTreeData& tree, const PageVector<PlacedLeaf>& leaves, const BuildInput& input,
                   double progress_begin, std::byte* bytes) {
     const std::size_t chunks = (leaves.size() + leaves_at_a_time - 1) / leaves_at_a_time;
     const Vec3 center = tree.frame.center();

@@ -2,11 +2,11 @@
 // (accel/kdtree/treelets.h).
 #pragma once
 
+#include "base/page_array.h"
 #include "ray/scene_frame.h"
 
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 namespace raywise {
 
@@ -55,8 +55,8 @@ inline constexpr int most_kd_levels = 64;
 // Planes are numbers of float32 in the frame.
 struct KdTreeData {
     SceneFrame frame;
-    std::vector<KdNode> nodes; // the root is the first; empty without hittable primitives
-    std::vector<std::uint32_t> references;
+    PageVector<KdNode> nodes; // the root is the first; empty without hittable primitives
+    PageVector<std::uint32_t> references;
     bool too_large = false; // see KdTreeOptions::most_numbers
 };
 

@@ -4,6 +4,7 @@
 #include "accel/kdtree/build/item_builder.h"
 #include "accel/kdtree/build/items.h"
 #include "accel/kdtree/treelets.h"
+#include "base/page_array.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,7 +56,7 @@ std::uint64_t most_references(const BuildInput& input, const KdTreeOptions& opti
     return std::clamp(affordable, primitives, most);
 }
 
-KdTask root_task(const std::vector<BuildItem>& items, std::uint64_t allowance) {
+KdTask root_task(const PageVector<BuildItem>& items, std::uint64_t allowance) {
     Bounds bounds = Bounds::none();
     for (const BuildItem& item : items) bounds.extend(Bounds::of(item));
     KdTask root{};
@@ -102,17 +103,17 @@ KdTreeData build_kd_tree(const BuildInput& input, const KdTreeOptions& options, 
     const auto n = static_cast<double>(hittable);
     WorkReport work(input.progress, n * (1.0 + 1.5 * std::log2(n + 1.0)), progress_end);
     const auto report = [&work](std::uint64_t primitives) { work(primitives); };
-    std::vector<BuildItem> items = gather_kd_items(input, frame, report);
+    PageVector<BuildItem> items = gather_kd_items(input, frame, report);
 
     const KdCosts costs(input.costs, options);
     const KdClipper clipper(input.primitives, frame, options.clips);
     const KdContext context{options, costs, clipper, most_levels(hittable), report};
     const KdTask root = root_task(items, most_references(input, options));
-    std::vector<KdPart> parts;
+    PageVector<KdPart> parts;
     const auto part_size = static_cast<std::uint32_t>(std::max(least_apart, hittable / parts_wanted));
     KdOutput top = KdItemBuilder(context, std::move(items)).build_top(root, part_size, parts);
 
-    std::vector<KdOutput> outputs(parts.size());
+    PageVector<KdOutput> outputs(parts.size());
     input.parallel.for_each(parts.size(), [&](std::uint64_t i) {
         const KdTask task = parts[i].task;
         outputs[i] = KdItemBuilder(context, std::move(parts[i].items)).build(task);
@@ -126,10 +127,10 @@ KdTreeData build_kd_tree(const BuildInput& input, const KdTreeOptions& options, 
     if (std::max(nodes, references) >= options.most_numbers) return too_large(frame);
     KdTreeData tree;
     tree.frame = frame;
-    tree.nodes.reserve(nodes);
-    tree.references.reserve(references);
     tree.nodes = std::move(top.nodes);
     tree.references = std::move(top.references);
+    tree.nodes.reserve(nodes);
+    tree.references.reserve(references);
     for (std::size_t i = 0; i < parts.size(); ++i) join(tree, parts[i].node, std::move(outputs[i]));
     return tree;
 }

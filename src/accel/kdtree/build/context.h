@@ -6,6 +6,7 @@
 #include "accel/kdtree/build/clip.h"
 #include "accel/kdtree/build/costs.h"
 #include "accel/kdtree/options.h"
+#include "base/page_array.h"
 
 #include <functional>
 
@@ -26,8 +27,8 @@ struct KdContext {
 
 // Nodes and references of a tree or of a part of it, as they grow.
 struct KdOutput {
-    std::vector<KdNode> nodes;
-    std::vector<std::uint32_t> references;
+    PageVector<KdNode> nodes;
+    PageVector<std::uint32_t> references;
 
     // Takes back what has been added since.
     struct Mark {
@@ -47,7 +48,7 @@ struct KdOutput {
         nodes[node] = KdNode::inner(axis, position, child);
         return child;
     }
-    void set_leaf(std::uint32_t node, const std::vector<std::uint32_t>& list) {
+    void set_leaf(std::uint32_t node, const PageVector<std::uint32_t>& list) {
         nodes[node] =
             KdNode::leaf(static_cast<std::uint32_t>(references.size()), static_cast<std::uint32_t>(list.size()));
         references.insert(references.end(), list.begin(), list.end());

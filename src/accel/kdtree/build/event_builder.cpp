@@ -42,7 +42,7 @@ double KdEventBuilder::split(const KdTask& task, const KdPlane& plane, bool is_b
                              const Begin& begin) {
     const KdCosts& costs = context_.costs;
     // A split on credit has to pay in the end; then the node still has to know its primitives.
-    std::vector<std::uint32_t> own;
+    PageVector<std::uint32_t> own;
     if (is_bad) list_primitives(begin, own);
     KdSides sides(task, plane, task.bad_splits + (is_bad ? 1 : 0));
     classify(plane, begin);
@@ -130,7 +130,7 @@ void KdEventBuilder::cut(const KdTask& task, const KdPlane& plane, const Begin& 
 namespace {
 
 // Merges `count` sorted events with as many places behind them as `added` has events.
-void merge_from_behind(KdEvent* events, std::size_t count, const std::vector<KdEvent>& added) {
+void merge_from_behind(KdEvent* events, std::size_t count, const PageVector<KdEvent>& added) {
     std::size_t rest = added.size();
     while (rest > 0) {
         if (count > 0 && added[rest - 1] < events[count - 1]) {
@@ -149,7 +149,7 @@ void merge_from_behind(KdEvent* events, std::size_t count, const std::vector<KdE
 KdEventBuilder::Begin KdEventBuilder::distribute(const Begin& begin) {
     Begin above_begin;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::vector<KdEvent>& events = events_[axis];
+        PageVector<KdEvent>& events = events_[axis];
         const std::size_t end = events.size();
         if (above_.size() < end - begin[axis] + 1) above_.resize(end - begin[axis] + 1);
         std::size_t below_end = begin[axis];
@@ -181,7 +181,7 @@ double KdEventBuilder::make_leaf(std::uint32_t node, const Begin& begin) {
     return context_.costs.leaf(static_cast<std::uint32_t>(leaf_.size()));
 }
 
-void KdEventBuilder::list_primitives(const Begin& begin, std::vector<std::uint32_t>& list) const {
+void KdEventBuilder::list_primitives(const Begin& begin, PageVector<std::uint32_t>& list) const {
     list.clear();
     for (std::size_t i = begin[0]; i < events_[0].size(); ++i) {
         if (events_[0][i].kind() != KdEvent::ends) list.push_back(primitives_[events_[0][i].number()]);

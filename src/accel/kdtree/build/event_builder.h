@@ -5,11 +5,11 @@
 #include "accel/kdtree/build/context.h"
 #include "accel/kdtree/build/events.h"
 #include "accel/kdtree/build/task.h"
+#include "base/page_array.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace raywise {
 
@@ -36,19 +36,19 @@ private:
     void cut(const KdTask& task, const KdPlane& plane, const Begin& begin, KdSides& sides);
     Begin distribute(const Begin& begin);
     double make_leaf(std::uint32_t node, const Begin& begin);
-    void list_primitives(const Begin& begin, std::vector<std::uint32_t>& list) const;
+    void list_primitives(const Begin& begin, PageVector<std::uint32_t>& list) const;
 
     const KdContext& context_;
     KdOutput& output_;
     // The events of a node are those from some place to the ends of the lists.
     KdEventLists events_;
-    std::vector<std::uint32_t> primitives_; // by number
-    std::vector<Side> sides_;               // by number
+    PageVector<std::uint32_t> primitives_; // by number
+    PageVector<Side> sides_;               // by number
     // Of the upper side of a node being split, and of the parts of what is cut.
-    std::vector<KdEvent> above_;
+    PageVector<KdEvent> above_;
     KdEventLists new_below_;
     KdEventLists new_above_;
-    std::vector<std::uint32_t> leaf_;
+    PageVector<std::uint32_t> leaf_;
 };
 
 } // namespace raywise

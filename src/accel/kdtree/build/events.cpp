@@ -34,7 +34,7 @@ void add_events(KdEventLists& lists, const Bounds& box, std::uint32_t number) {
     }
 }
 
-void sort_events(std::vector<KdEvent>& events, std::vector<KdEvent>& scratch) {
+void sort_events(PageVector<KdEvent>& events, PageVector<KdEvent>& scratch) {
     if (events.size() < fewest_to_count) {
         std::sort(events.begin(), events.end());
         return;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "accel/bvh/build/bounds.h"
+#include "base/page_array.h"
 
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 namespace raywise {
 
@@ -48,11 +48,11 @@ private:
     std::uint64_t bits_ = 0;
 };
 
-using KdEventLists = std::array<std::vector<KdEvent>, 3>; // one for each axis
+using KdEventLists = std::array<PageVector<KdEvent>, 3>; // one for each axis
 
 void add_events(KdEventLists& lists, const Bounds& box, std::uint32_t number);
 
 // By position and kind; equal ones keep their order. scratch: any.
-void sort_events(std::vector<KdEvent>& events, std::vector<KdEvent>& scratch);
+void sort_events(PageVector<KdEvent>& events, PageVector<KdEvent>& scratch);
 
 } // namespace raywise

@@ -8,7 +8,7 @@
 
 namespace raywise {
 
-KdItemBuilder::KdItemBuilder(const KdContext& context, std::vector<BuildItem> items)
+KdItemBuilder::KdItemBuilder(const KdContext& context, PageVector<BuildItem> items)
     : context_(context), event_builder_(context, output_), items_(std::move(items)) {}
 
 KdOutput KdItemBuilder::build(const KdTask& root) {
@@ -17,7 +17,7 @@ KdOutput KdItemBuilder::build(const KdTask& root) {
     return std::move(output_);
 }
 
-KdOutput KdItemBuilder::build_top(const KdTask& root, std::uint32_t part_size, std::vector<KdPart>& parts) {
+KdOutput KdItemBuilder::build_top(const KdTask& root, std::uint32_t part_size, PageVector<KdPart>& parts) {
     parts_ = &parts;
     part_size_ = part_size;
     return build(root);
@@ -51,7 +51,7 @@ double KdItemBuilder::split(const KdTask& task, const KdPlane& plane, bool is_ba
                             std::size_t begin) {
     const KdCosts& costs = context_.costs;
     // A split on credit has to pay in the end; then the node still has to know its primitives. Where there may be too many references, too.
-    std::vector<std::uint32_t> own;
+    PageVector<std::uint32_t> own;
     const bool may_go_back = is_bad || 2 * std::uint64_t{task.count} > task.allowance;
     if (may_go_back) own = primitives_from(begin);
     KdSides sides(task, plane, task.bad_splits + (is_bad ? 1 : 0));
@@ -133,8 +133,8 @@ double KdItemBuilder::make_leaf(std::uint32_t node, std::size_t begin) {
     return context_.costs.leaf(static_cast<std::uint32_t>(items_.size() - begin));
 }
 
-std::vector<std::uint32_t> KdItemBuilder::primitives_from(std::size_t begin) const {
-    std::vector<std::uint32_t> list(items_.size() - begin);
+PageVector<std::uint32_t> KdItemBuilder::primitives_from(std::size_t begin) const {
+    PageVector<std::uint32_t> list(items_.size() - begin);
     for (std::size_t i = begin; i < items_.size(); ++i) list[i - begin] = items_[i].id;
     return list;
 }

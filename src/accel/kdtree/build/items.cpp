@@ -23,9 +23,9 @@ BuildItem item_of(const Corners& c, const SceneFrame& frame) {
 
 } // namespace
 
-std::vector<BuildItem> gather_kd_items(const BuildInput& input, const SceneFrame& frame,
-                                       const std::function<void(std::uint64_t)>& report) {
-    std::vector<BuildItem> items(input.primitives.hittable_count());
+PageVector<BuildItem> gather_kd_items(const BuildInput& input, const SceneFrame& frame,
+                                      const std::function<void(std::uint64_t)>& report) {
+    PageVector<BuildItem> items(input.primitives.hittable_count());
     for_each_hittable(input, report,
                       [&](std::uint64_t i, std::uint32_t primitive, const TriangleMesh& mesh, std::uint32_t triangle) {
                           items[i] = frame.float_scale() != 0.0f && mesh.is_float32()
