@@ -34,22 +34,16 @@ std::pmr::vector<std::uint32_t> sample(const Primitives& primitives, std::uint32
 
 // The grid that the features speak of.
 struct Cells {
-    explicit Cells(const Box& bounds_of_scene, double triangles)
-        : bounds(bounds_of_scene),
-          resolution(grid_resolution(bounds.size(), triangles, feature_cells_per_triangle)),
-          size(bounds.size()) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const double count = resolution[static_cast<std::size_t>(axis)];
-            per_unit[axis] = size[axis] > 0.0 ? count / size[axis] : 0.0;
-        }
-    }
+    Cells(const Box& bounds, double triangles)
+        : lattice(bounds, grid_resolution(bounds.size(), triangles, feature_cells_per_triangle)) {}
 
-    double count(int axis) const { return resolution[static_cast<std::size_t>(axis)]; }
+    double count(int axis) const { return lattice.resolution[static_cast<std::size_t>(axis)]; }
     double number() const { return count(0) * count(1) * count(2); }
 
     // Between the cells along one axis there are planes; a line that meets the box meets each with the chance that areas give.
     double along_line() const {
-        const double area = bounds.half_area();
+        const Vec3 size = lattice.bounds.size();
+        const double area = lattice.bounds.half_area();
         if (!(area > 0.0)) return max_component(Vec3(count(0), count(1), count(2)));
         double cells = 1.0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -61,23 +55,21 @@ struct Cells {
     std::uint64_t at(const Vec3& point) const {
         std::uint64_t cell = 0;
         for (int axis = 2; axis >= 0; --axis) {
-            const double place =
-                std::clamp((point[axis] - bounds.lower[axis]) * per_unit[axis], 0.0, count(axis) - 1.0);
-            cell = cell * resolution[static_cast<std::size_t>(axis)] + static_cast<std::uint64_t>(place);
+            const double place = (point[axis] - lattice.bounds.lower[axis]) * lattice.cells_per_unit[axis];
+            cell = cell * lattice.resolution[static_cast<std::size_t>(axis)] +
+                   static_cast<std::uint64_t>(std::clamp(place, 0.0, count(axis) - 1.0));
         }
         return cell;
     }
     // In the mean over where the planes are.
     double reached_by(const Vec3& box) const {
         double cells = 1.0;
-        for (int axis = 0; axis < 3; ++axis) cells *= std::min(count(axis), 1.0 + box[axis] * per_unit[axis]);
+        for (int axis = 0; axis < 3; ++axis)
+            cells *= std::min(count(axis), 1.0 + box[axis] * lattice.cells_per_unit[axis]);
         return cells;
     }
 
-    Box bounds;
-    std::array<std::uint32_t, 3> resolution;
-    Vec3 size;
-    Vec3 per_unit{0.0};
+    CellLattice lattice;
 };
 
 // The pairs of equal numbers.
@@ -106,7 +98,7 @@ SceneFeatures look_at(const Primitives& primitives, std::uint32_t sampled) {
     const double triangles = static_cast<double>(primitives.hittable_count());
     // Not the bounds: those of the triangles with area alone may not be known yet.
     const Cells cells(primitives.outer_bounds(), triangles);
-    const double area = cells.bounds.half_area();
+    const double area = cells.lattice.bounds.half_area();
     SceneFeatures features;
     features.triangles = triangles;
     features.cells = cells.along_line();

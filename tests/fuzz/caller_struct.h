@@ -18,6 +18,8 @@ template <class T>
 inline constexpr std::uint32_t oldest_size = sizeof(T);
 template <>
 inline constexpr std::uint32_t oldest_size<rw_commit_options> = offsetof(rw_commit_options, refit);
+template <>
+inline constexpr std::uint32_t oldest_size<rw_query_options> = offsetof(rw_query_options, workspace);
 
 template <class T>
 class CallerStruct {

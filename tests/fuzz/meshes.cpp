@@ -154,14 +154,14 @@ Mesh::Mesh(Input& input) {
     judge();
 }
 
-Mesh::Mesh(Input& input, std::shared_ptr<const Mesh> before) : before_(std::move(before)) {
+Mesh::Mesh(Input& input, std::shared_ptr<const Mesh> before, bool is_built_anew) : before_(std::move(before)) {
     std::vector<Point> points = move_points(input, before_->values_);
     const bool was_indexed = before_->triangles_.indices.data != nullptr;
     std::vector<Triangle> triangles = before_->corners_;
     const bool is_indexed = was_indexed && input.one_in(2);
     if (is_indexed && !triangles.empty() && input.one_in(32)) { // another number of triangles
         triangles.pop_back();
-        outcome_.fails_if(true, RW_ERROR_INVALID_ARGUMENT);
+        outcome_.fails_if(!is_built_anew, RW_ERROR_INVALID_ARGUMENT);
     }
     if (is_indexed && !points.empty() && input.one_in(16)) points.pop_back(); // some indices may be out of range now
     if (!is_indexed && input.one_in(32)) {

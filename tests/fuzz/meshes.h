@@ -19,8 +19,9 @@ using Point = std::array<double, 3>;
 class Mesh {
 public:
     explicit Mesh(Input& input);
-    // The same mesh with its vertices elsewhere, for rw_scene_refit; now and then with numbers that differ, which it refuses.
-    Mesh(Input& input, std::shared_ptr<const Mesh> before);
+    // The same mesh with its vertices elsewhere, for rw_scene_refit; now and then with numbers that differ, which it refuses,
+    // unless the scene is built anew in any case.
+    Mesh(Input& input, std::shared_ptr<const Mesh> before, bool is_built_anew);
 
     // As the caller describes it. The arrays belong to this object.
     const rw_triangles& triangles() const { return triangles_; }

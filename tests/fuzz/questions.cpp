@@ -93,7 +93,7 @@ void ask_ray(Input& input, const Asked& asked, const rw_ray& ray, const Skips& s
 
 // The options of a batch, and whether they are in order.
 struct Query {
-    explicit Query(Input& input) : loop(input) {
+    Query(Input& input, const Workspace& workspace) : loop(input) {
         if (input.one_in(2)) return;
         rw_query_options o{};
         o.threads = input.pick({0u, 0u, 1u, 2u, 3u, 1000u});
@@ -104,6 +104,7 @@ struct Query {
         if (input.one_in(4)) o.progress = go_on;
         if (input.one_in(4)) o.cancel = &cancel;
         if (o.cancel != nullptr && input.one_in(4)) cancel = input.pick({1, -1, 256});
+        if (input.one_in(2)) o.workspace = workspace.get();
         options.emplace(input, o);
     }
     const rw_query_options* get() const { return options ? options->get() : nullptr; }
@@ -239,7 +240,8 @@ void ask_single(Input& input, const Reference& reference, const std::vector<Aske
     for (const Asked& each : asked) ask_ray(input, each, ray, skips, wanted);
 }
 
-void ask_intersect_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
+void ask_intersect_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked,
+                         const Workspace& workspace) {
     const RayBatch batch(input, reference.meshes());
     HitOutputs outputs(input, batch.rays().size());
     Outcome arguments = batch.outcome();
@@ -250,7 +252,7 @@ void ask_intersect_batch(Input& input, const Reference& reference, const std::ve
             outputs.expect(i, reference.closest(batch.rays()[i], batch.skips(i)), reference.judge());
     }
     for (const Asked& each : asked) {
-        Query query(input);
+        Query query(input, workspace);
         const bool answered = check_batch("intersect_batch", arguments, query,
                                           each.intersect_batch(batch.get(), outputs.get(), query.get()));
         if (answered) {
@@ -267,7 +269,8 @@ void ask_intersect_batch(Input& input, const Reference& reference, const std::ve
     demand(batch.is_unchanged(), "a batch's rays were written to");
 }
 
-void ask_occluded_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
+void ask_occluded_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked,
+                        const Workspace& workspace) {
     const RayBatch batch(input, reference.meshes());
     OutputArray output(input, batch.rays().size(), 1, OutputKind::flags);
     const bool absent = input.one_in(32);
@@ -282,7 +285,7 @@ void ask_occluded_batch(Input& input, const Reference& reference, const std::vec
             output.expect_flag(i, !reference.all(batch.rays()[i], batch.skips(i)).empty());
     }
     for (const Asked& each : asked) {
-        Query query(input);
+        Query query(input, workspace);
         const bool answered = check_batch("occluded_batch", arguments, query,
                                           each.occluded_batch(batch.get(), &output.output(), query.get()));
         if (answered) {
@@ -298,7 +301,8 @@ void ask_occluded_batch(Input& input, const Reference& reference, const std::vec
     demand(batch.is_unchanged(), "an occlusion batch's rays were written to");
 }
 
-void ask_all_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked) {
+void ask_all_batch(Input& input, const Reference& reference, const std::vector<Asked>& asked,
+                   const Workspace& workspace) {
     const RayBatch batch(input, reference.meshes());
     Outcome arguments = batch.outcome();
     arguments.add(batch.skip_outcome());
@@ -328,7 +332,7 @@ void ask_all_batch(Input& input, const Reference& reference, const std::vector<A
         }
     }
     for (const Asked& each : asked) {
-        Query query(input);
+        Query query(input, workspace);
         std::vector<std::uint64_t> found(offsets.size(), 77);
         std::uint64_t needed = 77;
         const bool wants_needed = !input.one_in(8);
@@ -365,7 +369,7 @@ void ask_all_batch(Input& input, const Reference& reference, const std::vector<A
     demand(batch.is_unchanged(), "the rays of a batch of all hits were written to");
 }
 
-void ask_once(Input& input, const Reference& reference, const rw_profile* profile) {
+void ask_once(Input& input, const Reference& reference, const rw_profile* profile, const Workspace& workspace) {
     Outcome arguments("once");
     Meshes meshes = reference.meshes();
     std::shared_ptr<const Reference> other; // of one mesh more
@@ -386,7 +390,7 @@ void ask_once(Input& input, const Reference& reference, const rw_profile* profil
     }
 
     const RayBatch batch(input, meshes);
-    Query query(input);
+    Query query(input, workspace);
     rw_once_options o{};
     o.kind = input.one_in(16) ? input.between(-1, 6) : input.between(0, 4);
     arguments.fails_if(o.kind < RW_RAYS_ANY_KIND || o.kind > RW_RAYS_DIFFUSE, RW_ERROR_INVALID_ARGUMENT);

@@ -62,6 +62,7 @@ struct Build {
         : loop(input), progress(input), is_given(!input.one_in(3)), options(input, describe(input)) {}
 
     const rw_commit_options* get() const { return is_given ? options.get() : nullptr; }
+    bool is_anew() const { return is_given && !options.is_of_an_older_program() && refit == RW_REFIT_NEVER; }
     Outcome outcome() const {
         Outcome outcome("options");
         if (!is_given) return outcome;
@@ -294,12 +295,20 @@ void World::refit() {
     Outcome outcome("refit");
     std::vector<rw_triangles> described;
     for (const auto& mesh : scene->meshes) {
-        moved.meshes.push_back(std::make_shared<Mesh>(input_, mesh));
-        outcome.add(moved.meshes.back()->outcome());
-        described.push_back(moved.meshes.back()->moved_triangles());
+        moved.meshes.push_back(std::make_shared<Mesh>(input_, mesh, build.is_anew()));
     }
-    // Built anew, other numbers are no mistake.
-    if (build.refit != RW_REFIT_NEVER && input_.one_in(32)) {
+    if (build.is_anew() && input_.one_in(8)) { // another number of meshes
+        if (moved.meshes.empty() || input_.one_in(2)) {
+            moved.meshes.push_back(std::make_shared<Mesh>(input_));
+        } else {
+            moved.meshes.pop_back();
+        }
+    }
+    for (const auto& mesh : moved.meshes) {
+        outcome.add(mesh->outcome());
+        described.push_back(mesh->moved_triangles());
+    }
+    if (!build.is_anew() && input_.one_in(32)) {
         if (!described.empty() && input_.one_in(2)) {
             described.pop_back();
         } else {
@@ -336,9 +345,10 @@ void World::ask() {
     } else {
         return;
     }
-    static constexpr void (*questions[])(Input&, const Reference&, const std::vector<Asked>&) = {
-        ask_single, ask_single, ask_intersect_batch, ask_intersect_batch, ask_occluded_batch, ask_all_batch};
-    input_.pick(questions)(input_, *reference, everybody(reference));
+    if (input_.one_in(3)) return ask_single(input_, *reference, everybody(reference));
+    static constexpr void (*batches[])(Input&, const Reference&, const std::vector<Asked>&, const Workspace&) = {
+        ask_intersect_batch, ask_intersect_batch, ask_occluded_batch, ask_all_batch};
+    input_.pick(batches)(input_, *reference, everybody(reference), workspace_);
 }
 
 void World::look_at_facts() {
@@ -409,7 +419,8 @@ void World::make_view() {
 void World::once() {
     const SceneState* scene = any_committed();
     if (scene == nullptr) return;
-    ask_once(input_, *scene->reference, profiles_.empty() ? nullptr : profiles_[input_.below(profiles_.size())].handle);
+    ask_once(input_, *scene->reference, profiles_.empty() ? nullptr : profiles_[input_.below(profiles_.size())].handle,
+             workspace_);
 }
 
 void World::keep_and_give_back() {

@@ -4,6 +4,7 @@
 #include "fuzz/asked.h"
 #include "fuzz/input.h"
 #include "fuzz/reference.h"
+#include "fuzz/workspace.h"
 
 #include <memory>
 #include <optional>
@@ -72,6 +73,7 @@ private:
     std::vector<SceneState> scenes_;
     std::vector<ViewState> views_;
     std::vector<Held<rw_profile>> profiles_;
+    Workspace workspace_;
 };
 
 } // namespace raywise::fuzz

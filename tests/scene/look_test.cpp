@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <vector>
 
 namespace raywise {
 namespace {
@@ -90,6 +92,23 @@ TEST(Look, BearsFlatAndTinyScenesAndNone) {
                 EXPECT_TRUE(std::isfinite(seen.*feature.value) && seen.*feature.value >= 0.0) << feature.name;
         }
     }
+}
+
+// In float64 a scene may be thinner than any number has an inverse: as good as flat.
+TEST(Look, BearsScenesThatAreThinnerThanInverses) {
+    const Soup soup = make_soup(100);
+    const auto features_with_x_times = [&](double factor) {
+        std::vector<double> vertices(soup.vertices.begin(), soup.vertices.end());
+        for (std::size_t i = 0; i < vertices.size(); i += 3) vertices[i] *= factor;
+        TriangleArrays arrays = soup.arrays();
+        arrays.vertices = {reinterpret_cast<const std::byte*>(vertices.data()), 24, 8, Scalar::float64};
+        const Primitives primitives({std::make_shared<const TriangleMesh>(arrays, true, true)});
+        return look_at(primitives, 1000);
+    };
+    const SceneFeatures thin = features_with_x_times(4.0 * std::numeric_limits<double>::denorm_min());
+    const SceneFeatures flat = features_with_x_times(0.0);
+    for (const SceneFeature& feature : scene_features)
+        EXPECT_EQ(thin.*feature.value, flat.*feature.value) << feature.name;
 }
 
 TEST(Look, WithoutALookASceneIsTypical) {
