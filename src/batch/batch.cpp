@@ -21,10 +21,11 @@ struct RayBlock {
     const Elements& elements;
     const AnyRay* rays;
     const Query* queries;
-    Scratch& scratch; // for whatever the block takes
+    BatchWorkspace::PerThread& thread; // whose scratch is for whatever the block takes
     RayWindow<AnyRay>*
         keeps; // what its hits are to be kept in, until the caller's arrays are written in their order; null: they are written at once
 
+    Scratch& scratch() const { return thread.scratch; }
     std::size_t size() const { return elements.count(); }
     PacketOf<AnyRay> packet() const { return {rays, queries, size()}; }
 };
@@ -79,6 +80,8 @@ public:
         return invalid;
     }
 
+    const BatchWorkspace::Use& workspace() const { return workspace_; }
+
 private:
     using Clock = std::chrono::steady_clock;
     static double ns_since(Clock::time_point start) {
@@ -96,8 +99,8 @@ private:
         auto* const rays = thread.scratch.take<AnyRay>(elements.count());
         window_.read(elements, rays);
         thread.skips.read(rays_.skip, elements, tracer_.primitives());
-        thread.invalid += body(RayBlock<AnyRay>{elements, rays, thread.skips.queries(), thread.scratch,
-                                                window_.is_sorted() ? &window_ : nullptr});
+        thread.invalid += body(
+            RayBlock<AnyRay>{elements, rays, thread.skips.queries(), thread, window_.is_sorted() ? &window_ : nullptr});
     }
 
     // Each thread takes the next block that nobody has taken, so that all end at about the same time. Returns how long a ray took in the
@@ -163,8 +166,8 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
         hits.write(elements, found, tracer.primitives());
     };
     const auto answer = [&](const auto& block) {
-        auto* const found = block.scratch.template take<PrimitiveHit>(block.size());
-        const std::uint64_t invalid = tracer.closest_many(block.packet(), found, block.scratch);
+        auto* const found = block.scratch().template take<PrimitiveHit>(block.size());
+        const std::uint64_t invalid = tracer.closest_many(block.packet(), found, block.scratch());
         if (block.keeps != nullptr) {
             block.keeps->keep(block.elements, found);
         } else {
@@ -178,9 +181,9 @@ std::uint64_t intersect_batch(const Tracer& tracer, const RayArrays& rays, const
 std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const OutputArray& occluded,
                              const BatchOptions& options) {
     const auto answer = [&](const auto& block) {
-        auto* const found = block.scratch.template take<bool>(block.size());
+        auto* const found = block.scratch().template take<bool>(block.size());
         occluded.prefetch(block.elements);
-        const std::uint64_t invalid = tracer.any_many(block.packet(), found, block.scratch);
+        const std::uint64_t invalid = tracer.any_many(block.packet(), found, block.scratch());
         occluded.write(block.elements, found);
         return invalid;
     };
@@ -190,27 +193,43 @@ std::uint64_t occluded_batch(const Tracer& tracer, const RayArrays& rays, const 
 std::uint64_t intersect_all_batch(const Tracer& tracer, const RayArrays& rays, std::uint64_t* offsets,
                                   const HitArrays& hits, std::uint64_t capacity, std::uint64_t& needed,
                                   const BatchOptions& options) {
-    std::vector<std::vector<PrimitiveHit>> found(rays.count);
     // As float64, which is what is asked of structures for all hits.
+    BatchLoop<Ray> loop(tracer, rays, options);
+    HitsOfRay* const of_rays = loop.workspace().hits_of_rays(rays.count);
     const auto answer = [&](const RayBlock<Ray>& block) {
-        std::vector<std::vector<PrimitiveHit>> of_block(block.size());
-        const std::uint64_t invalid_of_block = tracer.all_many(block.packet(), of_block.data());
-        for (std::size_t k = 0; k < block.size(); ++k) found[block.elements[k]] = std::move(of_block[k]);
-        return invalid_of_block;
+        std::vector<PrimitiveHit>& found = block.thread.hits;
+        found.clear();
+        auto* const ends = block.scratch().take<std::size_t>(block.size());
+        const std::uint64_t invalid = tracer.all_many(block.packet(), found, ends);
+        auto* const kept = block.thread.kept_hits.take<PrimitiveHit>(found.size());
+        std::copy(found.begin(), found.end(), kept);
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < block.size(); ++k) {
+            of_rays[block.elements[k]] = {kept + first, ends[k] - first, 0};
+            first = ends[k];
+        }
+        return invalid;
     };
-    const std::uint64_t invalid = BatchLoop<Ray>(tracer, rays, options).run(answer, NothingKept{});
-    std::vector<std::uint64_t> first(rays.count + 1, 0);
-    for (std::uint64_t i = 0; i < rays.count; ++i) first[i + 1] = first[i] + found[i].size();
-    if (first.back() <= capacity) {
+    const std::uint64_t invalid = loop.run(answer, NothingKept{});
+
+    std::uint64_t total = 0;
+    for (std::uint64_t i = 0; i < rays.count; ++i) {
+        of_rays[i].first = total;
+        total += of_rays[i].count;
+    }
+    if (total <= capacity) {
         const std::uint64_t block = batch_block(rays.count, options.parallel.threads(), 1);
         options.parallel.for_blocks(rays.count, block, [&](std::uint64_t begin, std::uint64_t end) {
-            for (std::uint64_t i = begin; i < end; ++i)
-                hits.write({first[i], found[i].size()}, found[i].data(), tracer.primitives());
+            for (std::uint64_t i = begin; i < end; ++i) {
+                const HitsOfRay& of_ray = of_rays[i];
+                hits.write({of_ray.first, of_ray.count}, of_ray.hits, tracer.primitives());
+            }
         });
     }
     // Last, so that an error before leaves the caller's offsets alone.
-    std::copy(first.begin(), first.end(), offsets);
-    needed = first.back();
+    for (std::uint64_t i = 0; i < rays.count; ++i) offsets[i] = of_rays[i].first;
+    offsets[rays.count] = total;
+    needed = total;
     return invalid;
 }
 

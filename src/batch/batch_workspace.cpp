@@ -16,7 +16,14 @@ BatchWorkspace::Use::Use(BatchWorkspace& workspace, unsigned threads) : workspac
     for (PerThread& thread : workspace.threads_) {
         thread.pace = {};
         thread.invalid = 0;
+        thread.kept_hits.reset();
     }
+}
+
+HitsOfRay* BatchWorkspace::Use::hits_of_rays(std::size_t rays) const {
+    PageArray<HitsOfRay>& array = workspace_.hits_of_rays_;
+    if (array.size() < rays) array = PageArray<HitsOfRay>(rays);
+    return array.data();
 }
 
 } // namespace raywise

@@ -57,12 +57,15 @@ private:
 
 } // namespace
 
-void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits) {
+void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits,
+                    std::size_t first) {
+    if (hits.size() - first < 2) return;
     // The first hit stays; where no other may be on an edge there is nothing to decide.
-    if (hits.size() < 2 || std::none_of(hits.begin() + 1, hits.end(), may_be_on_edge)) return;
-    const Corners first = primitives.corners(hits.front().primitive);
-    const NudgedRay nudged(ray, first);
-    hits.erase(std::remove_if(hits.begin() + 1, hits.end(),
+    const auto others = hits.begin() + static_cast<std::ptrdiff_t>(first) + 1;
+    if (std::none_of(others, hits.end(), may_be_on_edge)) return;
+    const Corners towards = primitives.corners(hits[first].primitive);
+    const NudgedRay nudged(ray, towards);
+    hits.erase(std::remove_if(others, hits.end(),
                               [&](const PrimitiveHit& hit) {
                                   return may_be_on_edge(hit) && !nudged.meets(primitives.corners(hit.primitive));
                               }),

@@ -4,11 +4,13 @@
 #include "geometry/primitives.h"
 #include "ray/exact_ray.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace raywise {
 
-// Takes out of all hits of a ray, sorted, those that a ray exactly through an edge or a corner meets more than once.
+// Takes out of all hits of a ray, sorted, those that a ray exactly through an edge or a corner meets more than once. They are the
+// elements from `first` on.
 //
 // Triangles include their edges and corners, so that such a ray finds a hit wherever it touches something. But then it meets the
 // two triangles of an edge, or all of those around a corner, in one crossing, and counting hits would not tell inside from
@@ -18,6 +20,7 @@ namespace raywise {
 // mesh an even number of times, and since it still hits the first triangle the closest hit stays the first of all hits.
 //
 // The direction is not moved: what is seen edge-on stays without a hit.
-void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits);
+void keep_crossings(const ExactRay& ray, const Primitives& primitives, std::vector<PrimitiveHit>& hits,
+                    std::size_t first = 0);
 
 } // namespace raywise

@@ -23,7 +23,7 @@ constexpr std::uint64_t fewest_rays_to_look = 32;
 // worth knowing before.
 constexpr std::uint64_t areas_matter_from = 256;
 
-// Scenes of fewer triangles are built on the caller's thread: that takes 0.1 ms (a kd_tree 3), and what could be shared of it is over
+// Scenes of fewer triangles are built on the caller's thread: that takes 0.1 ms (a kd_tree 1), and what could be shared of it is over
 // before another thread is awake.
 constexpr std::uint64_t fewest_for_build_threads = 1024;
 

@@ -34,6 +34,14 @@ HWY_INLINE hn::VFromD<Doubles> load_four(const float* numbers) {
     return hn::PromoteTo(Doubles(), hn::LoadU(Floats(), numbers));
 }
 
+// Whether components of a direction stay what they are in float32, and their inverses numbers: below 2^-126 they would lose bits, and below
+// 2^-128 have no inverse, however large they are beside a length that is as small. NaN is false.
+template <class D, class V = hn::VFromD<D>>
+HWY_INLINE hn::MFromD<D> are_float_numbers(D d, V magnitude) {
+    using T = hn::TFromD<D>;
+    return hn::Or(hn::Eq(magnitude, hn::Zero(d)), hn::Ge(magnitude, hn::Set(d, static_cast<T>(0x1p-126f))));
+}
+
 // What is the same once a ray is in the frame. along: its direction, of any length; inverse_scale: from the inverses of its components to those
 // of the scaled direction.
 // The members are stored as they are made, 16 bytes at a time, and read back no wider: reading across stores would wait for them to reach
@@ -78,9 +86,9 @@ HWY_INLINE RaySetup set_up_in_double(const AnyRay& ray, const SceneFrame& frame,
     const auto scale = hn::Set(d, frame.scale());
     const auto start = hn::Mul(offset, scale);
     // Comparisons with NaN are false: such a ray goes the long way too.
-    const auto is_usual =
-        hn::And(hn::And(hn::Le(magnitude, largest), hn::Le(hn::And(start, magnitude_bits), hn::Set(d, frame.near()))),
-                hn::And(hn::Ge(largest, hn::Set(d, 0x1p-100)), hn::Le(largest, hn::Set(d, 0x1p100))));
+    const auto is_usual = hn::And(
+        hn::And(are_float_numbers(d, magnitude), hn::Le(hn::And(start, magnitude_bits), hn::Set(d, frame.near()))),
+        hn::And(hn::Ge(largest, hn::Set(d, 0x1p-100)), hn::Le(largest, hn::Set(d, 0x1p100))));
     if (HWY_UNLIKELY(bits_of_axes(is_usual) != 15u || !(ray.tmin <= ray.tmax)))
         return set_up_rare_ray(widened(ray), frame, result, time);
 
@@ -124,8 +132,9 @@ HWY_INLINE RaySetup set_up_ray(const RayF& ray, const SceneFrame& frame, Travers
     const auto start = hn::Mul(origin, scale);
     // Comparisons with NaN are false: such a ray goes the long way too.
     const auto near = hn::Set(f, static_cast<float>(frame.near()));
-    const auto is_usual = hn::And(hn::And(hn::Le(magnitude, largest), hn::Le(hn::And(start, magnitude_bits), near)),
-                                  hn::And(hn::Ge(largest, hn::Set(f, 0x1p-60f)), hn::Le(largest, hn::Set(f, 0x1p60f))));
+    const auto is_usual =
+        hn::And(hn::And(are_float_numbers(f, magnitude), hn::Le(hn::And(start, magnitude_bits), near)),
+                hn::And(hn::Ge(largest, hn::Set(f, 0x1p-60f)), hn::Le(largest, hn::Set(f, 0x1p60f))));
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(f, is_usual, bits);
     if (HWY_UNLIKELY((bits[0] & 15u) != 15u || !(ray.tmin <= ray.tmax)))

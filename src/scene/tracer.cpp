@@ -57,23 +57,25 @@ std::uint64_t Tracer::any_many(const PacketOf<AnyRay>& rays, bool* found, Scratc
 template std::uint64_t Tracer::any_many(const RayPacket&, bool*, Scratch&) const;
 template std::uint64_t Tracer::any_many(const RayPacketF&, bool*, Scratch&) const;
 
-std::uint64_t Tracer::all_many(const RayPacket& rays, std::vector<PrimitiveHit>* hits) const {
+std::uint64_t Tracer::all_many(const RayPacket& rays, std::vector<PrimitiveHit>& hits, std::size_t* ends) const {
     const std::uint64_t invalid = count_invalid_of(rays);
     for (std::size_t i = 0; i < rays.count; ++i) {
         const Ray& ray = rays.rays[i];
-        std::vector<PrimitiveHit>& found = hits[i];
-        found.clear();
-        accel_->all(ray, rays.query(i), found);
-        if (found.empty()) continue;
-        std::sort(found.begin(), found.end());
-        keep_crossings(ExactRay(ray), *primitives_, found);
+        const std::size_t first = hits.size();
+        accel_->all(ray, rays.query(i), hits);
+        if (hits.size() > first) {
+            std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end());
+            keep_crossings(ExactRay(ray), *primitives_, hits, first);
+        }
+        ends[i] = hits.size();
     }
     return invalid;
 }
 
 void Tracer::all(const Ray& ray, std::vector<Hit>& hits, const Query& query) const {
     std::vector<PrimitiveHit> found;
-    all_many({&ray, &query, 1}, &found);
+    std::size_t end = 0;
+    all_many({&ray, &query, 1}, found, &end);
     hits.clear();
     hits.reserve(found.size());
     for (const PrimitiveHit& hit : found) hits.push_back(to_caller(hit));

@@ -53,12 +53,13 @@ public:
     // Replaces `hits` by all hits in order, each crossing of a surface once (geometry/crossings.h).
     void all(const Ray& ray, std::vector<Hit>& hits, const Query& query = {}) const;
 
-    // The same for many rays, answer i that of ray i, as structures give it. Each returns how many of the rays hold a NaN.
+    // The same for many rays, answer i that of ray i, as structures give it. Each returns how many of the rays hold a NaN. All hits
+    // are appended ray by ray; ends[i] is how many there are with those of ray i.
     template <class AnyRay>
     std::uint64_t closest_many(const PacketOf<AnyRay>& rays, PrimitiveHit* hits, Scratch& scratch) const;
     template <class AnyRay>
     std::uint64_t any_many(const PacketOf<AnyRay>& rays, bool* found, Scratch& scratch) const;
-    std::uint64_t all_many(const RayPacket& rays, std::vector<PrimitiveHit>* hits) const;
+    std::uint64_t all_many(const RayPacket& rays, std::vector<PrimitiveHit>& hits, std::size_t* ends) const;
     std::size_t rays_at_a_time() const { return accel_->rays_at_a_time(); }
 
     const Primitives& primitives() const { return *primitives_; }

@@ -434,6 +434,32 @@ inline std::vector<NamedSoup> hard_scenes() {
 
 // ---- progress ----
 
+// A million triangles in one place, which all lie in the same cells, with references that memory bears, for few rays and many; one
+// far off makes those cells a small part of all.
+template <class Structure>
+void expect_bears_a_million_equal_triangles() {
+    const Corners triangle{Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.5), Vec3(0.0, 1.0, 0.25)};
+    for (const bool with_another : {false, true}) {
+        Soup soup(1000000, triangle);
+        if (with_another) soup.push_back({Vec3(90.0), Vec3(91.0, 90.0, 90.0), Vec3(90.0, 91.0, 90.0)});
+        World world(soup);
+        for (const std::uint64_t rays : {100u, 10000000u}) {
+            BuildInput input = world.input();
+            input.rays = rays;
+            const Structure structure(input);
+            EXPECT_LT(structure.bytes(), 200u * soup.size());
+            const Ray through{Vec3(0.25, 0.25, 9.0), 0.0, Vec3(0.0, 0.0, -1.0), unbounded};
+            EXPECT_EQ(structure.closest(through, {}).primitive, 0u);
+            EXPECT_TRUE(structure.any(through, {}));
+            std::vector<PrimitiveHit> all;
+            structure.all(through, {}, all);
+            EXPECT_EQ(all.size(), 1000000u);
+            const Ray beside{Vec3(1.25, 0.25, 9.0), 0.0, Vec3(0.0, 0.0, -1.0), unbounded};
+            EXPECT_FALSE(structure.closest(beside, {}).is_hit());
+        }
+    }
+}
+
 template <class Structure>
 void expect_stops_when_asked(int call) {
     int calls = 0;

@@ -98,6 +98,8 @@ TEST(TwoLevelGrid, StaysWithinTheMemoryLimitAsFarAsItCan) {
     EXPECT_EQ(TwoLevelGrid(input).levels().coarse.cell_count(), 1u);
 }
 
+TEST(TwoLevelGrid, BearsAMillionEqualTriangles) { expect_bears_a_million_equal_triangles<TwoLevelGrid>(); }
+
 TEST(TwoLevelGrid, StopsWhenAsked) { expect_stops_when_asked<TwoLevelGrid>(4); }
 
 TEST(TwoLevelGrid, ReportsProgressFromZeroToOne) { expect_progress_from_zero_to_one<TwoLevelGrid>(); }

@@ -250,6 +250,8 @@ TEST(UniformGrid, CountsReferencesInItsStatistics) {
     EXPECT_EQ(statistics.resolution, grid.lattice().resolution);
 }
 
+TEST(UniformGrid, BearsAMillionEqualTriangles) { expect_bears_a_million_equal_triangles<UniformGrid>(); }
+
 TEST(UniformGrid, StopsWhenAsked) { expect_stops_when_asked<UniformGrid>(2); }
 
 TEST(UniformGrid, ReportsProgressFromZeroToOne) { expect_progress_from_zero_to_one<UniformGrid>(); }

@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #define RAYS 20000
+#define MOST_HITS (20 * RAYS)
 
 static rw_scene *scene;
 static double origins[RAYS][3], directions[RAYS][3];
@@ -19,6 +20,10 @@ typedef struct batch {
     float normal[RAYS][3];
     uint32_t primitive[RAYS];
     uint8_t flags[RAYS];
+    uint64_t offsets[RAYS + 1];
+    rw_hits all;
+    float all_t[MOST_HITS];
+    uint32_t all_primitive[MOST_HITS];
 } batch;
 
 static batch *make_batch(int is_float64, rw_batch_workspace *workspace) {
@@ -35,6 +40,9 @@ static batch *make_batch(int is_float64, rw_batch_workspace *workspace) {
     b->hits.normal.data = b->normal;
     b->hits.primitive.data = b->primitive;
     b->occluded.data = b->flags;
+    b->all.struct_size = sizeof b->all;
+    b->all.t.data = b->all_t;
+    b->all.primitive.data = b->all_primitive;
     b->options.threads = 1;
     b->options.invalid_rays = &b->invalid;
     b->options.workspace = workspace;
@@ -44,12 +52,19 @@ static batch *make_batch(int is_float64, rw_batch_workspace *workspace) {
 static int same_answers(const batch *a, const batch *b) {
     return memcmp(a->t, b->t, sizeof a->t) == 0 && memcmp(a->normal, b->normal, sizeof a->normal) == 0 &&
            memcmp(a->primitive, b->primitive, sizeof a->primitive) == 0 &&
-           memcmp(a->flags, b->flags, sizeof a->flags) == 0 && a->invalid == b->invalid;
+           memcmp(a->flags, b->flags, sizeof a->flags) == 0 && memcmp(a->offsets, b->offsets, sizeof a->offsets) == 0 &&
+           memcmp(a->all_t, b->all_t, sizeof a->all_t) == 0 &&
+           memcmp(a->all_primitive, b->all_primitive, sizeof a->all_primitive) == 0 && a->invalid == b->invalid;
+}
+
+static int32_t ask_all(batch *b) {
+    return rw_scene_intersect_all_batch(scene, &b->rays, b->offsets, &b->all, MOST_HITS, NULL, &b->options);
 }
 
 static void ask(batch *b) {
     CHECK_OK(rw_scene_intersect_batch(scene, &b->rays, &b->hits, &b->options));
     CHECK_OK(rw_scene_occluded_batch(scene, &b->rays, &b->occluded, &b->options));
+    CHECK_OK(ask_all(b));
 }
 
 static void answers_are_the_same(void) {
@@ -76,7 +91,7 @@ static void no_memory_is_taken(void) {
     for (is_float64 = 0; is_float64 < 2; ++is_float64) {
         rw_batch_workspace *workspace = NULL;
         batch *first, *again;
-        int32_t status, status_any;
+        int32_t status, status_any, status_all;
         long refused;
         NEED_OK(rw_batch_workspace_create(&workspace));
         first = make_batch(is_float64, workspace);
@@ -86,9 +101,12 @@ static void no_memory_is_taken(void) {
         refuse(REFUSE_FROM_ON, 0);
         status = rw_scene_intersect_batch(scene, &again->rays, &again->hits, &again->options);
         status_any = rw_scene_occluded_batch(scene, &again->rays, &again->occluded, &again->options);
+        status_all = ask_all(again);
         refused = stop_refusing();
         CHECK_OK(status);
         CHECK_OK(status_any);
+        CHECK_OK(status_all);
+        CHECK(first->offsets[RAYS] > RAYS);
         CHECK(refused == 0);
         CHECK(same_answers(first, again));
         /* And without a workspace memory is taken, or this test could not fail. */
@@ -97,6 +115,10 @@ static void no_memory_is_taken(void) {
         status = rw_scene_intersect_batch(scene, &again->rays, &again->hits, &again->options);
         refused = stop_refusing();
         CHECK(status == RW_ERROR_OUT_OF_MEMORY && refused > 0);
+        refuse(REFUSE_FROM_ON, 0);
+        status_all = ask_all(again);
+        refused = stop_refusing();
+        CHECK(status_all == RW_ERROR_OUT_OF_MEMORY && refused > 0);
         free(first);
         free(again);
         CHECK_OK(rw_batch_workspace_release(workspace));
@@ -116,12 +138,14 @@ static int32_t ask_within(void *user, double fraction, const char *stage) {
     (void)stage;
     m->inner->t[0] = -7.0f;
     m->inner->flags[0] = 9;
+    m->inner->offsets[0] = 9;
     if (CHECK_ERROR(rw_scene_intersect_batch(scene, &m->inner->rays, &m->inner->hits, &m->inner->options),
                     RW_ERROR_IN_USE, "options.workspace|another batch") &&
         CHECK_ERROR(rw_scene_occluded_batch(scene, &m->inner->rays, &m->inner->occluded, &m->inner->options),
-                    RW_ERROR_IN_USE, "options.workspace|another batch"))
+                    RW_ERROR_IN_USE, "options.workspace|another batch") &&
+        CHECK_ERROR(ask_all(m->inner), RW_ERROR_IN_USE, "options.workspace|another batch"))
         ++m->refusals;
-    m->unwritten += m->inner->t[0] == -7.0f && m->inner->flags[0] == 9;
+    m->unwritten += m->inner->t[0] == -7.0f && m->inner->flags[0] == 9 && m->inner->offsets[0] == 9;
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "ray/traversal_ray.h"
 
 #include "random.h"
+#include "ray/set_ups.h"
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,44 @@ TEST(TraversalRay, MeetsTheBoxOfEveryHit) {
                 EXPECT_TRUE(meets(setup.ray, frame, target - Vec3(passes), target + Vec3(passes)))
                     << "center " << center.x << ", far " << far << ", ray " << i;
                 EXPECT_GE(setup.time.last(t), setup.time.first(t));
+            }
+        }
+    }
+}
+
+// Directions of any length, whose components are of very different sizes: their inverses need not be numbers of float32.
+TEST(TraversalRay, MeetsTheBoxOfEveryHitWhateverTheDirectionsLength) {
+    Random random(6);
+    const SceneFrame frame(Vec3(0.0), 1.0, {Vec3(-1.0), Vec3(1.0)});
+    for (int length = -160; length <= 160; ++length) {
+        for (int i = 0; i < 400; ++i) {
+            // Near the center on some axes, where the slack that is relative to the start is small.
+            Vec3f target;
+            for (int axis = 0; axis < 3; ++axis)
+                target[axis] =
+                    static_cast<float>(std::ldexp(random.number(), -static_cast<int>(random.integer() % 80)));
+            const auto long_axis = static_cast<glm::length_t>(random.integer() % 3);
+            Vec3f direction(0.0f);
+            for (int axis = 0; axis < 3; ++axis) {
+                const int less = axis == long_axis ? 0 : static_cast<int>(random.integer() % 80);
+                direction[axis] = static_cast<float>(std::ldexp(random.number(), length - less));
+            }
+            if (direction[long_axis] == 0.0f || !is_finite(direction)) continue;
+            // On a line through the target, but for what rounding of the origin passes it by.
+            const double t = 4.0 / std::fabs(static_cast<double>(direction[long_axis]));
+            const RayF ray{Vec3f(Vec3(target) - t * Vec3(direction)), 0.0f, direction,
+                           std::numeric_limits<float>::infinity()};
+            if (max_component(magnitudes(Vec3(ray.origin))) > 1e3) continue;
+            const Vec3 reached = Vec3(ray.origin) + t * Vec3(direction);
+            const Vec3 passes = 0x1p-50 * (magnitudes(Vec3(ray.origin)) + magnitudes(reached));
+            for (const bool narrow : {false, true}) {
+                TraversalRay traversal;
+                RayTime time;
+                const RaySetup status = narrow ? set_up_in_vectors(ray, frame, traversal, time)
+                                               : set_up_in_vectors(widened(ray), frame, traversal, time);
+                ASSERT_EQ(status, RaySetup::ready);
+                EXPECT_TRUE(meets(traversal, frame, reached - passes, reached + passes))
+                    << "length 2^" << length << ", ray " << i << ", float32 " << narrow;
             }
         }
     }

@@ -431,7 +431,7 @@ typedef int32_t (*rw_progress)(void *user, double fraction, const char *stage);
 /* The memory that batches take while they run, kept from one to the next: a batch like the one before then takes none
  * from the system, but for what oneTBB or a parallel_for may take. For hosts that ask in a loop; of use to any scene. It
  * grows to what the largest of its batches took: 48 bytes a ray, 80 where not all of the rays' numbers are float32, for at
- * most 2^20 rays, and 1 MiB for each thread. */
+ * most 2^20 rays, and 1 MiB for each thread; for all hits 24 bytes a ray and 32 a hit besides. */
 typedef struct rw_batch_workspace rw_batch_workspace;
 
 /* Does: makes a workspace, which is empty until it is used. workspace: receives it; the caller must release it.
@@ -751,6 +751,8 @@ RW_API int32_t rw_scene_occluded_batch(const rw_scene *scene, const rw_rays *ray
  * hits: outputs with room for capacity answers; NULL with capacity 0 to ask for the offsets only.
  * needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may
  * share no memory.
+ * Memory: 24 bytes a ray and 32 a hit, while the call lasts or for as long as the workspace does, beside what rays in
+ * another order take.
  * Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
  * otherwise as rw_scene_intersect_batch. */
 RW_API int32_t rw_scene_intersect_all_batch(const rw_scene *scene, const rw_rays *rays, uint64_t *offsets,
