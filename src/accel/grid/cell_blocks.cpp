@@ -140,6 +140,8 @@ void write_cell_blocks(const Primitives& primitives, const Parallel& parallel, c
 }
 
 bool fits_blocks(const BuildInput& input, std::uint64_t bytes, std::uint64_t references) {
+    constexpr std::uint64_t most_for_each = 12;
+    if (references > most_for_each * input.primitives.hittable_count()) return false;
     if (input.memory_limit == 0) return true;
     return bytes + references * block_bytes_per_triangle(!input.primitives.is_float32()) <= input.memory_limit;
 }

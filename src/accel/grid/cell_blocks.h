@@ -9,7 +9,8 @@
 
 namespace raywise {
 
-// Whether blocks of so many references stay within input.memory_limit, beside `bytes`.
+// Whether blocks of so many references stay within input.memory_limit, beside `bytes`. Never where there are more than twelve for each
+// primitive: sticks have ten, and primitives that lie in one place would take a kilobyte each.
 bool fits_blocks(const BuildInput& input, std::uint64_t bytes, std::uint64_t references);
 
 // Puts blocks in the place of the references.
