@@ -1,6 +1,7 @@
 #include "bench/summary.h"
 
 #include "bench/report.h"
+#include "bench/sections/section.h"
 #include "bench/subjects/yardstick_subject.h"
 #include "bench/table.h"
 
@@ -147,6 +148,7 @@ nlohmann::ordered_json summary_of(const Session& session) {
     summary["build_scaling"] = build_scaling(session);
     summary["bytes_per_triangle"] = {{"steady", bytes(session, "steady")}, {"peak", bytes(session, "peak")}};
     summary["totals"] = totals(session);
+    summary["regret"] = regret_summary(session);
     summary["overhead"] = overhead(session);
     summary["linear_scan"] = linear_scan(session);
     return summary;

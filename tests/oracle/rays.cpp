@@ -153,6 +153,10 @@ std::vector<Ray> hard_rays(const Scene& scene, int count, unsigned seed) {
         steep.direction[(i + 1) % 3] = std::ldexp(make.number(-1.0, 1.0), -make.below(200));
         steep.direction[(i + 2) % 3] = std::ldexp(make.number(-1.0, 1.0), -make.below(60));
         rays.push_back(steep);
+        // The same with a direction so short that its smaller parts have no inverse in float32.
+        const int shorter = make.below(140);
+        for (int axis = 0; axis < 3; ++axis) steep.direction[axis] = std::ldexp(steep.direction[axis], -shorter);
+        rays.push_back(steep);
     }
     return traceable(std::move(rays));
 }

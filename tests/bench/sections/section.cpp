@@ -11,6 +11,7 @@ const std::vector<Section>& sections() {
         {"build", "building", measure_build, build_table, false},
         {"memory", "bytes per triangle", measure_memory, memory_table, false},
         {"totals", "from cold to R answers", measure_totals, totals_table, false},
+        {"regret", "what the choice costs", measure_regret, regret_table, false},
         {"frames", "moved, renewed and asked", measure_frames, frames_table, false},
         {"linear_scan", "the linear scan", measure_linear_scan, linear_scan_table, false},
         {"structures", "our structures beside each other", measure_structures, structures_table, false},

@@ -3,6 +3,8 @@
 
 #include "bench/session.h"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -31,6 +33,9 @@ void measure_memory(SceneUnderTest& scene);
 std::string memory_table(const Session& session);
 void measure_totals(SceneUnderTest& scene);
 std::string totals_table(const Session& session);
+void measure_regret(SceneUnderTest& scene);
+std::string regret_table(const Session& session);
+nlohmann::ordered_json regret_summary(const Session& session); // fractions; null where nothing was measured
 void measure_frames(SceneUnderTest& scene);
 std::string frames_table(const Session& session);
 void measure_linear_scan(SceneUnderTest& scene);

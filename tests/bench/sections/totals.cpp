@@ -1,41 +1,38 @@
 // From cold to R answers, building included, in one thread. raywise is told R and chooses; it answers by one batch call. The others
 // build once and ask ray after ray. What would take too long is reckoned from the rate of the rays that were asked, and marked.
+#include "bench/sections/from_cold.h"
 #include "bench/sections/section.h"
 #include "bench/table.h"
 
 #include "rays/rays.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace raywise::bench {
 namespace {
 
-constexpr std::uint64_t decades[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
+const std::vector<std::uint64_t>& decades() {
+    static const std::vector<std::uint64_t> all = decades_up_to(10'000'000);
+    return all;
+}
 
 // Milliseconds for each decade, and how they came about.
 struct Totals {
     const Subject* subject;
-    std::vector<std::vector<double>> ms = std::vector<std::vector<double>>(std::size(decades));
-    std::vector<std::string> structure = std::vector<std::string>(std::size(decades));
+    std::vector<std::vector<double>> ms = std::vector<std::vector<double>>(decades().size());
+    std::vector<std::string> structure = std::vector<std::string>(decades().size());
 };
 
 class Race {
 public:
     Race(SceneUnderTest& scene, std::size_t kind)
-        : scene_(scene), kind_(kind), distribution_(workloads::ray_distributions()[kind]) {
-        const Session& session = scene.session();
-        const std::uint64_t affordable =
-            affordable_rays(scene, kind, question(), session.effort.totals_measured, session.effort.totals_ns);
-        for (const std::uint64_t decade : decades)
-            if (decade <= affordable) most_ = decade;
-        rays_ = scene.rays(kind, most_);
-        for (const auto& subject : session.subjects)
+        : scene_(scene), distribution_(workloads::ray_distributions()[kind]), rays_(scene, kind, decades()) {
+        for (const auto& subject : scene.session().subjects)
             if (subject->traits().totals) totals_.push_back({subject.get()});
     }
 
     void run(unsigned repetitions) {
-        if (rays_.size() < most_) return;
+        if (!rays_.are_there()) return;
         for (unsigned repetition = 0; repetition < repetitions; ++repetition) {
             scene_.session().show_progress("from cold, " + std::to_string(repetition + 1) + " of " +
                                            std::to_string(repetitions));
@@ -47,9 +44,9 @@ public:
                     build_once(totals);
             }
         }
-        for (std::size_t i = 0; i < std::size(decades); ++i) {
-            Cell cell = scene_.cell("totals", distribution_.name, question());
-            cell.count = decades[i];
+        for (std::size_t i = 0; i < decades().size(); ++i) {
+            Cell cell = scene_.cell("totals", distribution_.name, rays_.question());
+            cell.count = decades()[i];
             cell.unit = "ms";
             cell.higher_is_better = false;
             for (const Totals& totals : totals_) {
@@ -61,7 +58,7 @@ public:
                 value.spread = (calibration::quantile(totals.ms[i], 0.75) - calibration::quantile(totals.ms[i], 0.25)) /
                                value.value;
                 value.structure = totals.structure[i];
-                value.extrapolated = decades[i] > most_;
+                value.extrapolated = decades()[i] > rays_.most();
                 cell.values.push_back(std::move(value));
             }
             scene_.session().cells.push_back(std::move(cell));
@@ -69,82 +66,44 @@ public:
     }
 
 private:
-    Question question() const { return distribution_.any_hit ? Question::any : Question::closest; }
-
-    BuildRequest request(std::uint64_t count) const {
-        BuildRequest request{scene_.mesh()};
-        request.kind = kind_;
-        request.count = count;
-        return request;
-    }
-
-    // The rays are the caller's: laying them out is not counted.
-    std::unique_ptr<Query> query(const Built& built, Call call) const {
-        QueryRequest request{rays_};
-        request.question = question();
-        request.call = call;
-        return built.query(request);
-    }
-
     void build_for_each(Totals& totals) const {
-        for (std::size_t i = 0; i < std::size(decades); ++i) {
-            const std::uint64_t asked = std::min(decades[i], most_);
-            const double start = calibration::processor_ns();
-            const std::unique_ptr<Built> built = totals.subject->build(request(decades[i]));
-            const double build_ns = calibration::processor_ns() - start;
-            const std::unique_ptr<Query> rays = query(*built, Call::batch);
-            const double begin = calibration::processor_ns();
-            rays->ask(0, asked);
-            const double asked_ns = calibration::processor_ns() - begin;
-            const double rays_ns = asked_ns * static_cast<double>(decades[i]) / static_cast<double>(asked);
-            totals.ms[i].push_back((build_ns + rays_ns) * 1e-6);
-            totals.structure[i] = built->structure();
+        for (std::size_t i = 0; i < decades().size(); ++i) {
+            const ColdTime time = time_from_cold(*totals.subject, rays_, decades()[i]);
+            totals.ms[i].push_back(time.total_ms(decades()[i]));
+            totals.structure[i] = time.structure;
         }
     }
 
     void build_once(Totals& totals) const {
         const double start = calibration::processor_ns();
-        const std::unique_ptr<Built> built = totals.subject->build(request(most_));
+        const std::unique_ptr<Built> built = totals.subject->build(rays_.request(rays_.most()));
         double ns = calibration::processor_ns() - start;
-        const std::unique_ptr<Query> rays = query(*built, Call::single);
+        QueryRequest request{rays_.rays()};
+        request.question = rays_.question();
+        const std::unique_ptr<Query> rays = built->query(request);
         std::uint64_t done = 0;
         double ns_per_ray = 0.0; // of the latest decade
-        for (std::size_t i = 0; i < std::size(decades); ++i) {
-            const std::uint64_t more = decades[i] - done;
-            if (decades[i] <= most_) {
+        for (std::size_t i = 0; i < decades().size(); ++i) {
+            const std::uint64_t more = decades()[i] - done;
+            if (decades()[i] <= rays_.most()) {
                 const double begin = calibration::processor_ns();
-                rays->ask(done, decades[i]);
+                rays->ask(done, decades()[i]);
                 const double asked_ns = calibration::processor_ns() - begin;
                 ns_per_ray = asked_ns / static_cast<double>(more);
                 ns += asked_ns;
             } else {
                 ns += ns_per_ray * static_cast<double>(more);
             }
-            done = decades[i];
+            done = decades()[i];
             totals.ms[i].push_back(ns * 1e-6);
         }
     }
 
     SceneUnderTest& scene_;
-    std::size_t kind_;
     const workloads::RayDistribution& distribution_;
-    std::uint64_t most_ = 1; // rays that are asked
-    RaySet rays_;
+    ColdRays rays_;
     std::vector<Totals> totals_;
 };
-
-std::string power_of_ten(std::uint64_t count) {
-    return count < 1000 ? std::to_string(count)
-                        : "1e" + std::to_string(std::lround(std::log10(static_cast<double>(count))));
-}
-
-// What fits into a narrow column.
-std::string short_name(const std::string& structure) {
-    const std::size_t underscore = structure.find('_');
-    if (underscore == std::string::npos) return structure;
-    const std::string last = structure.substr(underscore + 1);
-    return last == "tree" ? structure.substr(0, underscore) : last == "bvh" ? "proj" : last;
-}
 
 } // namespace
 
@@ -163,7 +122,7 @@ std::string totals_table(const Session& session) {
     std::string text;
     for (const workloads::RayDistribution& distribution : workloads::ray_distributions()) {
         std::vector<std::string> headings = {"scene"};
-        for (const std::uint64_t count : decades) headings.push_back(power_of_ten(count));
+        for (const std::uint64_t count : decades()) headings.push_back(power_of_ten(count));
         Table table(std::string("From cold to R answers, building included, 1 thread, ") + distribution.name +
                         " rays: best peer's time\nover raywise's, and what it chose (*: reckoned from a measured rate)",
                     headings);
