@@ -14,10 +14,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
+#include <thread>
 
 #include <unistd.h>
 
@@ -82,6 +85,16 @@ std::vector<std::string> own_command(const CommandLine& line) {
             line.subject_files.embree4};
 }
 
+// Processors that this process keeps busy while it does nothing: threads of some library that wait for work by asking for it.
+double busy_while_idle() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50)); // who has just worked may wait like that for a while
+    const auto start = std::chrono::steady_clock::now();
+    const double before = calibration::processor_ns();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const double busy = calibration::processor_ns() - before;
+    return busy / std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Returns whether all checks held.
 bool run(const CommandLine& line) {
     TakingPart all = who_takes_part(line.subject_files, line.options.subjects, line.options.quick);
@@ -141,6 +154,10 @@ bool run(const CommandLine& line) {
             session.show_progress(parts[part]->description);
             parts[part]->measure(scene);
         }
+        if (const double busy = busy_while_idle(); busy > 0.1)
+            session.warnings.push_back(scene.name() + ": while nobody is asked, threads of this process take " +
+                                       std::to_string(std::lround(100.0 * busy)) +
+                                       " % of a processor, which is in all times above");
         // After each scene: an hour's work should not hang on its last minute.
         if (!line.json.empty()) save(report_of(session, all, line), line.json);
     }
