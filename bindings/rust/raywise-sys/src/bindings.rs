@@ -883,7 +883,7 @@ pub type rw_progress = ::std::option::Option<
 The memory that batches take while they run, kept from one to the next: a batch like the one before then takes none
 from the system, but for what oneTBB or a parallel_for may take. For hosts that ask in a loop; of use to any scene. It
 grows to what the largest of its batches took: 48 bytes a ray, 80 where not all of the rays' numbers are float32, for at
-most 2^20 rays, and 1 MiB for each thread.
+most 2^20 rays, and 1 MiB for each thread; for all hits 24 bytes a ray and 32 a hit besides.
 ```
 */
 #[repr(C)]
@@ -2164,6 +2164,8 @@ offsets: room for rays->count + 1 numbers; written in full, RW_ERROR_CAPACITY or
 hits: outputs with room for capacity answers; NULL with capacity 0 to ask for the offsets only.
 needed: receives the number of all hits, offsets[rays->count]; may be NULL. It and offsets are outputs that may
 share no memory.
+Memory: 24 bytes a ray and 32 a hit, while the call lasts or for as long as the workspace does, beside what rays in
+another order take.
 Returns: RW_OK; RW_ERROR_CAPACITY when there are more than capacity (no hit is then written, offsets and needed are);
 otherwise as rw_scene_intersect_batch.
 ```
