@@ -106,7 +106,7 @@ run_all() { # NAME...
 commit() { git describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null || echo unknown; }
 machine() {
     local brand
-    brand=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
+    brand=$(sed -n '/^model name/{s/^[^:]*: //p;q}' /proc/cpuinfo)
     echo "${brand:-$(uname -m)}, $(nproc) threads"
 }
 json_text() { sed 's/\\/\\\\/g; s/"/\\"/g' <<<"$1"; }

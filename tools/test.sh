@@ -79,7 +79,7 @@ readonly SLOWEST=10
 report_slowest() {
     printf 'the %d slowest (seconds)\n' "$SLOWEST"
     sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) \.*.* +([0-9]+\.[0-9]+) sec$/\2 \1/p' "$(ctest_log "$1")" |
-        sort -rn | head -n "$SLOWEST" | awk '{ printf "%9.1f  %s\n", $1, $2 }'
+        sort -rn | awk -v most="$SLOWEST" 'NR <= most { printf "%9.1f  %s\n", $1, $2 }' # head would break the pipe
 }
 
 # cargo prints one line per test program, and one saying 0 for each that has no tests.
