@@ -133,6 +133,12 @@ LinearCost fit_cost(const std::vector<Point>& all, std::size_t units) {
     std::vector<unsigned> choices(1u << (units + 1));
     std::iota(choices.begin(), choices.end(), 0u);
     std::stable_sort(choices.begin(), choices.end(), [&](unsigned a, unsigned b) { return count(a) < count(b); });
+    // A quantity that comes nowhere to 1 was not measured: what it costs would be made of noise, and told of scenes where it is many times that.
+    unsigned measured = 1; // as choices
+    for (std::size_t i = 0; i < units; ++i) {
+        for (const Point& p : points)
+            if (p.units[i] >= 1.0) measured |= 2u << i;
+    }
     double least = INFINITY;
     int columns_of_least = 0;
     for (const unsigned choice : choices) {
@@ -140,7 +146,7 @@ LinearCost fit_cost(const std::vector<Point>& all, std::size_t units) {
         for (Eigen::Index i = 0; i < parts.cols(); ++i) {
             if ((choice >> i & 1u) != 0) columns.push_back(i);
         }
-        if (columns.empty() || columns.size() > points.size()) continue;
+        if (columns.empty() || columns.size() > points.size() || (choice & ~measured) != 0) continue;
         const Fit fit = fit_columns(parts(Eigen::all, columns));
         const double needed = count(choice) > columns_of_least ? 1.0 - least_gain : 1.0;
         if (!(fit.misfit < needed * least - rounding)) continue;
