@@ -136,8 +136,8 @@ LinearCost fit_cost(const std::vector<Point>& all, std::size_t units) {
     // A quantity that comes nowhere to 1 was not measured: what it costs would be made of noise, and told of scenes where it is many times that.
     unsigned measured = 1; // as choices
     for (std::size_t i = 0; i < units; ++i) {
-        for (const Point& p : points)
-            if (p.units[i] >= 1.0) measured |= 2u << i;
+        if (std::any_of(points.begin(), points.end(), [i](const Point& p) { return p.units[i] >= 1.0; }))
+            measured |= 2u << i;
     }
     double least = INFINITY;
     int columns_of_least = 0;

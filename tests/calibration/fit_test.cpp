@@ -48,6 +48,17 @@ TEST(FitCost, TellsUnitsApartOnlyWhereTheyDiffer) {
     EXPECT_TRUE(cost.per_unit[0] == 0.0 || cost.per_unit[1] == 0.0);
 }
 
+// What a unit costs is not told by points in which there is next to nothing of it, though it would fit them.
+TEST(FitCost, LeavesOutUnitsThatNoPointHasOneOf) {
+    std::vector<Point> points;
+    for (const double a : {1.0, 7.0, 40.0}) {
+        for (const double b : {0.0, 0.3}) points.push_back({{a, b}, 5.0 * a + 100.0 * b});
+    }
+    EXPECT_EQ(fit_cost(points, 2).per_unit[1], 0.0);
+    points.push_back({{40.0, 1.0}, 300.0});
+    EXPECT_NEAR(fit_cost(points, 2).per_unit[1], 100.0, 1e-6);
+}
+
 TEST(FitCost, RecoversALineThatStartsAtZeroAndOneThatDoesNotGrow) {
     const LinearCost growing = fit_cost(points_of(0.0, 7.0, {2, 20, 2000}), 1);
     EXPECT_NEAR(growing.fixed, 0.0, 1e-6);

@@ -1,5 +1,4 @@
-// The ways in which a ray is made ready for float32: in vectors, of the best instruction set of this machine, as traversals do it, and the way of
-// rare rays.
+// A ray made ready for float32 as traversals do it: in vectors of the best instruction set of this machine (ray/traversal_ray-inl.h).
 #pragma once
 
 #include "ray/traversal_ray.h"

@@ -59,4 +59,12 @@ ColdTime time_from_cold(const Subject& subject, const ColdRays& rays, std::uint6
     return {build_ns, rays_ns / static_cast<double>(asked), built->structure()};
 }
 
+Value value_of_times(const std::vector<double>& ms) {
+    Value value;
+    value.value = calibration::median(ms);
+    value.spread = (calibration::quantile(ms, 0.75) - calibration::quantile(ms, 0.25)) / value.value;
+    value.repetitions = static_cast<unsigned>(ms.size());
+    return value;
+}
+
 } // namespace raywise::bench

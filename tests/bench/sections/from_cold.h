@@ -48,4 +48,7 @@ struct ColdTime {
 // caller's.
 ColdTime time_from_cold(const Subject& subject, const ColdRays& rays, std::uint64_t count);
 
+// Median, spread and number of repeated times; whose they are is for the caller to say.
+Value value_of_times(const std::vector<double>& ms);
+
 } // namespace raywise::bench

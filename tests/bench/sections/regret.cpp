@@ -1,7 +1,8 @@
 // What the choice costs: from cold to R answers with the structure that raywise chooses, choosing included, beside each structure it could
 // have chosen, all in one thread and one run. Regret is how much longer it takes than the best of them.
 //
-// A structure is timed only where it may be the best, by what it took a decade before: a kd-tree for ten rays would take the whole run.
+// A structure is timed only where it may be the best, by what it took when each was looked at once: a kd-tree for ten rays would take the
+// whole run.
 #include "bench/report.h"
 #include "bench/sections/from_cold.h"
 #include "bench/sections/section.h"
@@ -23,11 +24,15 @@ namespace {
 constexpr const char* section = "regret";
 constexpr std::uint64_t most_rays = 100'000'000;
 
-// So many times the best expected total a structure may be expected to take and is timed all the same: one that is made otherwise for more
-// rays changes its speed at most so much from decade to decade.
-constexpr double worth_timing = 3.0;
+// So many times the best expected total a structure may be expected to take and is timed all the same: grids are made otherwise for few rays
+// than for many, at half or a third of the cost.
+constexpr double worth_timing = 4.0;
 
-// Somebody who may answer, and what is known of him from the decade before.
+// With so many rays each is looked at: what a batch costs whatever its rays would count among fewer, and a scan of all triangles takes long
+// enough for these.
+constexpr std::uint64_t rays_of_look = 10'000;
+
+// Somebody who may answer, and what he was found to take.
 struct Contender {
     const Subject* subject;
     double build_ns = 0.0;
@@ -58,11 +63,18 @@ public:
 
     void run() {
         if (!rays_.are_there()) return;
+        for (Contender& contender : contenders_) {
+            scene_.session().show_progress("looking at " + contender.subject->name() + ", " + distribution_.name +
+                                           " rays");
+            const ColdTime time = time_from_cold(*contender.subject, rays_, rays_of_look);
+            contender.build_ns = time.build_ns;
+            contender.ns_per_ray = time.ns_per_ray;
+        }
         for (const std::uint64_t count : decades_up_to(most_rays)) time_decade(count);
     }
 
 private:
-    std::vector<Contender*> worth_it(std::uint64_t count) {
+    std::vector<Contender*> worth_timing_for(std::uint64_t count) {
         double least = std::numeric_limits<double>::infinity();
         for (const Contender& contender : contenders_) least = std::min(least, contender.expected_ms(count));
         std::vector<Contender*> those;
@@ -75,19 +87,17 @@ private:
 
     void time_decade(std::uint64_t count) {
         const Session& session = scene_.session();
-        for (Contender& contender : contenders_) contender.ms.clear();
+        const std::vector<Contender*> those = worth_timing_for(count);
+        for (Contender* contender : those) contender->ms.clear();
         std::string chosen;
         for (unsigned repetition = 0; repetition < session.options.repetitions; ++repetition) {
             session.show_progress("choosing for " + power_of_ten(count) + ' ' + distribution_.name + " rays, " +
                                   std::to_string(repetition + 1) + " of " +
                                   std::to_string(session.options.repetitions));
-            const std::vector<Contender*> those = worth_it(count); // fewer from the second time on
             for (std::size_t turn = 0; turn < those.size(); ++turn) {
                 Contender& contender = *those[(turn + repetition) % those.size()];
                 const ColdTime time = time_from_cold(*contender.subject, rays_, count);
                 contender.ms.push_back(time.total_ms(count));
-                contender.build_ns = time.build_ns;
-                contender.ns_per_ray = time.ns_per_ray;
                 if (contender.subject->traits().chooses) chosen = time.structure;
             }
         }
@@ -95,15 +105,10 @@ private:
         cell.count = count;
         cell.unit = "ms";
         cell.higher_is_better = false;
-        for (const Contender& contender : contenders_) {
-            if (contender.ms.empty()) continue;
-            Value value;
-            value.subject = contender.subject->name();
-            value.value = calibration::median(contender.ms);
-            value.repetitions = static_cast<unsigned>(contender.ms.size());
-            value.spread =
-                (calibration::quantile(contender.ms, 0.75) - calibration::quantile(contender.ms, 0.25)) / value.value;
-            value.structure = contender.subject->traits().chooses ? chosen : contender.subject->name();
+        for (const Contender* contender : those) {
+            Value value = value_of_times(contender->ms);
+            value.subject = contender->subject->name();
+            value.structure = contender->subject->traits().chooses ? chosen : contender->subject->name();
             value.extrapolated = count > rays_.most();
             cell.values.push_back(std::move(value));
         }

@@ -50,13 +50,9 @@ public:
             cell.unit = "ms";
             cell.higher_is_better = false;
             for (const Totals& totals : totals_) {
-                Value value;
+                Value value = value_of_times(totals.ms[i]);
                 value.subject = totals.subject->name();
                 value.peer = totals.subject->traits().peer;
-                value.value = calibration::median(totals.ms[i]);
-                value.repetitions = static_cast<unsigned>(totals.ms[i].size());
-                value.spread = (calibration::quantile(totals.ms[i], 0.75) - calibration::quantile(totals.ms[i], 0.25)) /
-                               value.value;
                 value.structure = totals.structure[i];
                 value.extrapolated = decades()[i] > rays_.most();
                 cell.values.push_back(std::move(value));

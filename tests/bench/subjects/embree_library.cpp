@@ -28,7 +28,7 @@ EmbreeLibrary::EmbreeLibrary(const std::string& path) {
     intersect8 = find("rtcIntersect8");
     occluded8 = find("rtcOccluded8");
 
-    // One of all threads is kept, and comes first. Of two devices with threads=1 and none such, oneTBB 2022 has a thread that waits at full speed for
+    // One of all threads is kept, and comes first. Of two devices with threads=1 and none such, oneTBB 2021.12 has a thread that waits at full speed for
     // as long as they live: in the processor time of whoever is measured, and beside it on its core.
     if (rtcNewDevice("") == nullptr) throw std::runtime_error(path + " gives no device");
     const RTCDevice device = rtcNewDevice("threads=1");
